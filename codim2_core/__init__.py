@@ -22,8 +22,7 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .motion.limit.predicted_delays import delays
     from .motion.periodic.lyapunov import LyapunovExponents, lyapunov_exponents
     from .motion.periodic.response import response_curve
-    from .motion.periodic.response_result import ResponseCurve
-    from .motion.periodic.result import PeriodicMotion, PeriodicStatus
+    from .motion.periodic.result import PeriodicMotion, PeriodicStatus, ResponseCurve
     from .motion.periodic.search import periodic_motion
     from .motion.result import Phase, Simulation, SimulationStatus
     from .motion.simulate import simulate, simulate_nonsmooth
@@ -41,11 +40,9 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .portrait.orbits.trajectories import Trajectories, trajectories
     from .portrait.separatrices import Separatrices, Separatrix, separatrices
     from .portrait.sliding.along_z import slow_portrait
-    from .portrait.sliding.filippov import FilippovSliding, filippov_sliding
-    from .portrait.sliding.flow import sliding_flow
+    from .portrait.sliding.filippov import FilippovSliding, filippov_sliding, sliding_flow
     from .portrait.sliding.slow_portrait_result import SlowPortrait
-    from .portrait.theorems.certificates import certificates
-    from .portrait.theorems.portrait_proof import prove_portrait
+    from .portrait.theorems.certificates import certificates, prove_portrait
     from .scene import Scene
     from .systems import examples, mechanics, psi
     from .systems.coefficients import Coefficients
@@ -93,8 +90,7 @@ _HOMES = {
     "motion.limit.predicted_delays": "delays",
     "motion.periodic.lyapunov": "LyapunovExponents lyapunov_exponents",
     "motion.periodic.response": "response_curve",
-    "motion.periodic.response_result": "ResponseCurve",
-    "motion.periodic.result": "PeriodicMotion PeriodicStatus",
+    "motion.periodic.result": "PeriodicMotion PeriodicStatus ResponseCurve",
     "motion.periodic.search": "periodic_motion",
     "motion.result": "Phase Simulation SimulationStatus",
     "motion.simulate": "simulate simulate_nonsmooth",
@@ -111,11 +107,9 @@ _HOMES = {
     "portrait.orbits.trajectories": "Trajectories trajectories",
     "portrait.separatrices": "Separatrices Separatrix separatrices",
     "portrait.sliding.along_z": "slow_portrait",
-    "portrait.sliding.filippov": "FilippovSliding filippov_sliding",
-    "portrait.sliding.flow": "sliding_flow",
+    "portrait.sliding.filippov": "FilippovSliding filippov_sliding sliding_flow",
     "portrait.sliding.slow_portrait_result": "SlowPortrait",
-    "portrait.theorems.certificates": "certificates",
-    "portrait.theorems.portrait_proof": "prove_portrait",
+    "portrait.theorems.certificates": "certificates prove_portrait",
     "scene": "Scene",
     "systems.coefficients": "Coefficients",
     "systems.elinear": "ELinear",
@@ -137,7 +131,7 @@ if not TYPE_CHECKING:
         if name in _MODULES:
             found = import_module(f".{_MODULES[name]}", __name__)
         elif name in _HOME:
-            from .systems.public import find_public
+            from .systems.presets.presets import find_public
 
             found = find_public(__name__, _HOME[name], name)
         else:

@@ -9,7 +9,7 @@ followed by continuation, which takes seconds where the others take milliseconds
 
 from typing import TYPE_CHECKING
 
-from ..systems.public import find_public
+from ..systems.presets.presets import find_public
 
 if TYPE_CHECKING:  # for those who read types; `_HOMES` gives Python the same
     from .plane.curve import BifurcationCurve, SpecialPoint

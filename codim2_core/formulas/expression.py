@@ -113,10 +113,7 @@ class Expression:
         return result.copy() if len(self._tape) == 1 else result
 
     def derivative(self, name: str) -> Expression:
-        """Symbolic partial derivative by `name`, lightly simplified; zero if the formula does not use it.
-
-        Raises ValueError: The derivative is too long (20000 operations).
-        """
+        """Symbolic partial derivative by `name`, lightly simplified; ValueError beyond 20000 operations."""
         return _derivative(self, name)
 
     def substitute(self, name: str, replacement: Expression) -> Expression:

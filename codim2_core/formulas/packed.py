@@ -23,10 +23,7 @@ SQUARE_ROOT = code["sqrt"]
 
 
 def pack(program: Program, inputs: int, bound: float = 0.0) -> Array:
-    """Return a program as one array; the first rows are those of its variables.
-
-    Raises ValueError: More values must be kept at a time than there is room for.
-    """
+    """Return a program as one array, the rows of its variables first; ValueError where it needs too much room."""
     op, left, right, number, roots = (part.tolist() for part in program.arrays)
     last_use = {i: i for i in range(len(op))}
     for i, k in enumerate(op):

@@ -36,15 +36,7 @@ _UNARY_BINDING = 3  # -s^2 is -(s^2), and 2*-s and s^-2 are read too
 
 
 class ExpressionError(ValueError):
-    """Text that cannot be read.
-
-    Attributes
-    ----------
-    text : str
-        What was written.
-    column : int
-        Where reading stopped, from 1.
-    """
+    """Text that cannot be read, with the column, from 1, at which reading stopped."""
 
     def __init__(self, message: str, text: str, column: int) -> None:
         super().__init__(message)
@@ -91,10 +83,7 @@ def names_in(text: str) -> list[tuple[str, int]]:
 
 
 def read_formula(text: str, names: tuple[str, ...]) -> Tape:
-    """Tape of a formula.
-
-    Raises ExpressionError: A ValueError that says what was written, the column, what is allowed and the mend.
-    """
+    """Tape of a formula; ExpressionError says what was written, the column, what is allowed and the mend."""
     return _Reader(text, names).read()
 
 

@@ -81,10 +81,7 @@ def delay(
     buffer: complex | None,
     bifurcation: str = "Hopf",
 ) -> Delay:
-    """Gather a delay.
-
-    Shapes: known (k,).
-    """
+    """Gather a delay; `known` are times (k,) and the e (k, 2) there."""
     t_in, t_hopf, t_end = times
     z_in, z_hopf, z_end = motion(np.array(times))[:, 2:]
     t = np.linspace(t_hopf, t_end, DELAY_SAMPLES)

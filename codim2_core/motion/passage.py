@@ -21,10 +21,9 @@ from numpy.typing import NDArray
 
 from ..numerics.dense import StepArray, gather_steps
 from ..numerics.radau import Step, TooManyStepsError, truncate_step
-from ..numerics.root_between import root_between
+from ..numerics.sign_changes import root_between
 from ..results.arrays import Array
-from ..systems.psi.direction import smoothed_direction
-from ..systems.psi.function import Psi
+from ..systems.psi.function import Psi, smoothed_direction
 from .initial_value.field import Field
 from .initial_value.functions import functions_of
 from .initial_value.inspection import CONTACT, Inspection
@@ -59,10 +58,7 @@ LOST = (SetLostError, np.linalg.LinAlgError)
 
 @dataclass(frozen=True)
 class _Near:
-    """The flow near a slow manifold at a z: M (2,), the eigenvalues (2,) of J, its eigenvectors in columns, z'.
-
-    `moves`: whether the critical set does, along the slow flow.
-    """
+    """The flow near a slow manifold at a z: M (2,), eigenvalues and vectors of J, z', whether the set moves."""
 
     M: Array
     rates: NDArray[np.complex128]
@@ -173,10 +169,7 @@ class Passage:
         return found
 
     def _logs(self, parts: Sequence[StepArray], state: Array) -> NDArray[np.complex128]:
-        """Return log w (2,) along both modes at the end of some steps, with its phase as the imaginary part.
-
-        From there back to where w was `CLOSE`, or the motion or its branch begins, the rates are integrated.
-        """
+        """Return log w (2,) along both modes at the end of some steps, with its phase as the imaginary part."""
         grown, self.followed = np.zeros(2, complex), 0
         self.e = smoothed_direction(self.psi, self.eps, state[None, :2])[0][0]
         here = self.near(state[2:])
@@ -204,10 +197,7 @@ class Passage:
         return np.array([cmath.log(a) if a else complex(NEVER) for a in own.tolist()]) + grown / self.eps
 
     def near(self, z: Array, order: int = 2) -> _Near:
-        """Return the flow near the slow manifold, to O(eps^(order + 1)), at z.
-
-        Raises SetLostError.
-        """
+        """Return the flow near the slow manifold, to O(eps^(order + 1)), at z; raises SetLostError."""
         if self.line is not None and self.formulas.rests:
             return self._at_rest(self.line, z)
         M, J, moves = self._manifold(z, order)

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..numerics.curves.polyline import distance
+from ..numerics.curves.arclength import distance
 from ..numerics.dense import Dense
 from ..portrait.cycles.limit_cycles import limit_cycles
 from ..results.arrays import Array
@@ -261,10 +261,7 @@ class _ReadMotion:
 
 
 def phases_of(system: AnySystem, psi: Psi, eps: float, motion: Dense, turns: tuple[float, ...]) -> tuple[Phase, ...]:
-    """Cut a motion into phases.
-
-    Consecutive, from the first to the last time.
-    """
+    """Cut a motion into consecutive phases, from the first to the last time."""
     reader = _ReadMotion(system, psi, eps, motion, field(system), turns)
     phases = list(reader.phases())
     return tuple(replace(one, _place=OfState(motion, psi, eps, one.t_start, one.t_end)) for one in phases)

@@ -29,10 +29,7 @@ class Rolling:
 
 
 def rolling(ball: Ball, times: ArrayLike, states: ArrayLike, rate: float = 0.0, radius: float | None = None) -> Rolling:
-    """Follow a ball along its motion.
-
-    Shapes: times (k,), states (k, 2 + m).
-    """
+    """Follow a ball along its motion: times (k,), states (k, 2 + m)."""
     t, state = np.asarray(times, float), np.asarray(states, float)
     slip, velocity = state[:, :2], state[:, 2:4]
     dt = np.diff(t)[:, None]

@@ -17,14 +17,13 @@ from ..systems.arguments import checked_times
 from ..systems.kinds import AnySystem, P, PsiLike, SystemLike
 from ..systems.psi.function import Psi
 from .argument_checks import MAX_STEPS, checked_eps, checked_span, checked_states, checked_tolerances, with_time
-from .backward_run import Past
 from .initial_value.events import Event, Events, EventWatch, checked_events, reverse_event
 from .initial_value.field import Field, backwards_system, field
 from .initial_value.line import invariant_line
 from .limit.hybrid_run import HybridRun
-from .limit.stiction import checked_stiction
+from .limit.sigma_decision import checked_stiction
 from .locations import OfState
-from .regularised import RegularisedRun
+from .regularised import Past, RegularisedRun
 from .result import Phase, Simulation, SimulationStatus, simulation
 from .variation.nonsmooth import of_nonsmooth
 
@@ -215,9 +214,9 @@ def simulate(
     stiction : float
         In the limit, static over kinetic friction, S_0/S: above 1, a contact at rest holds while the friction that rest
         needs is at most that many times the kinetic one, |e| <= S_0/S, whatever Psi is, and then slips in the one
-        direction that there is (`limit.stiction`). So it also sticks where it would pass Sigma with |e| < S_0/S. U must
-        be affine in e; where friction feeds a slip (D_e U plus its transpose is not negative definite) what follows is
-        not known.
+        direction that there is (`limit.sigma_decision`). So it also sticks where it would pass Sigma with |e| < S_0/S.
+        U must be affine in e; where friction feeds a slip (D_e U plus its transpose is not negative definite) what
+        follows is not known.
     max_steps : int
         Steps and phases before the motion is given up, with a status that says so.
     max_step : float

@@ -67,10 +67,7 @@ def jacobian(field: Field, psi: Psi, e: Array, z: Array) -> Array:
 
 
 def followed_critical_set(field: Field, psi: Psi, eps: float, state: Array) -> TrackedSet | None:
-    """Return the critical set within O(eps) of which the state lies, in p; None if there is none.
-
-    Shapes: state (2 + m,).
-    """
+    """Return the critical set within O(eps) of which a state (2 + m,) lies, in p; None if there is none."""
     z = state[2:]
     own_e, own_p = place_on_hemisphere(psi, eps, float(state[0]), float(state[1]))
     e = solve_critical(field, own_e, z)

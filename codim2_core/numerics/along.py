@@ -95,10 +95,7 @@ def _root(op, left, right, number, roots, path, low, high, before, after, moved,
 
 @held_kernel
 def zeros_along(op, left, right, number, roots, path, r, only_first_fall, found):
-    """Find where row r changes its sign along a path.
-
-    How many there are; -1 where the parts ran out. Shapes: found (k, 2).
-    """
+    """Find where row r changes its sign along a path, found (k, 2), and how many; -1 where the parts ran out."""
     V, d = path.shape
     moved, box, seed = np.empty((V, d)), np.zeros((V, 6)), np.zeros((V, 3))
     bounds, work = np.empty((len(op), 6)), np.empty((len(op), 3))

@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..results.arrays import Array, read_only
-from ..results.equality import ByValue
-from ..results.result import Pictured, column_rows
+from ..results.result import ByValue, Pictured, column_rows
 from ..results.tables import frame
 from .radau import STAGES, Step
 
@@ -103,10 +102,7 @@ class DenseMotion(Pictured):
         return replace(self, _asked=read_only(times[covered]))
 
     def dense(self, t: ArrayLike) -> Array:
-        """State at any time, from the polynomials of the steps.
-
-        Raises ValueError: t is outside the times covered, or not finite.
-        """
+        """State at any time, from the polynomials of the steps; ValueError outside the times covered."""
         return self.motion(t)
 
     def _columns(self, when: Array, states: Array) -> dict[str, Any]:

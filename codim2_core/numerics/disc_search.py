@@ -144,11 +144,7 @@ def _is_known(found, zeros, c, s, half):
 
 @kernel
 def search(op, left, right, number, roots, levels, most, budget, found, rest):
-    """Find all zeros of U in the closed disc and a little beyond it.
-
-    half: Half-width of the undecided boxes; complete: Every undecided box is in `rest`; not so when `most`, `budget`
-    or the room in `found` ran out. Shapes: rest (most, 2).
-    """
+    """Find all zeros of U in the closed disc and a little beyond it; undecided boxes are in `rest` (most, 2)."""
     boxes = np.empty((len(op), 6))
     work = np.empty((len(op), 3))
     seed = np.zeros((4, 3))

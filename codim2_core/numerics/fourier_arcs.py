@@ -56,10 +56,7 @@ def _only_zero(c, low, high, rising, tolerance):
 
 @kernel
 def decide_arcs(c, theta, h, least, most, tolerance, first, fourth, simple):
-    """Decide arcs, cutting the undecided ones in four, until none is left or they are shorter than `least`.
-
-    theta: Middles of the arcs that are left; h: Their half-width. Shapes: c (n + 1,), theta (k,).
-    """
+    """Decide arcs of c (n + 1,), cutting the undecided in four; those shorter than `least` are left: theta, h."""
     found = 0
     while True:
         left = np.empty(len(theta))

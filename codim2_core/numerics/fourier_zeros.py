@@ -78,10 +78,7 @@ class Zeros:
 
 
 def series(values: Array, size: float, degree: int | None = None) -> Series:
-    """Fourier series of a function sampled at an even number N of equally spaced angles from 0.
-
-    Shapes: values (N,).
-    """
+    """Fourier series of values (N,) of a function at an even number N of equally spaced angles from 0."""
     n = len(values)
     c = np.asarray(np.fft.rfft(values) * (2.0 / n), np.complex128)
     c[0] *= 0.5

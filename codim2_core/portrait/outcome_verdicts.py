@@ -12,8 +12,9 @@ import numpy as np
 
 from ..results.arrays import Array
 from ..results.words import say, written_label, written_number
+from ..systems.frozen import FrozenSystem
+from ..systems.psi.function import Psi
 from .cycles.limit_cycles import cycles_of, reason_for_none
-from .cycles.predicted_limit_sets import predicted_limit_sets
 from .layer_problem.problem import LayerProblem
 from .omega_limits import (
     CAPTURE,
@@ -24,13 +25,57 @@ from .omega_limits import (
     drawn_time,
     nears_end,
     omega_limits,
+    predicted_limit_sets,
     radially_neutral,
     radially_neutral_ones,
 )
-from .orbits.batch_by_psi import batch_by_psi, states_at
 from .orbits.departures import departures_under
-from .orbits.options import DEFAULT_MAX_STEPS, Stepping, stepping
 from .orbits.result import Status, Trajectories
+from .orbits.seeds import DEFAULT_MAX_STEPS, Stepping, stepping
+from .orbits.trajectories import in_lanes, integrate_explicitly
+
+
+def batch_by_psi(
+    at: FrozenSystem, psis: Sequence[Psi], states: Sequence[Array], options: Stepping
+) -> list[Trajectories]:
+    """Follow states (k, 3) of the hemisphere under several Psi side by side, explicitly; typed ones by themselves."""
+    every = range(len(psis))
+    some = [i for i in every if not psis[i].record.typed]
+    if len(some) < 2:
+        some = []
+    found = {
+        i: integrate_explicitly(at, psis[i], states[i], _is_inside_disc(states[i]), options)
+        for i in every
+        if i not in some
+    }
+    if some:
+        lines = _blocks(at, [psis[i] for i in some], [states[i] for i in some], options)
+        found.update(zip(some, lines, strict=True))
+    return [found[i] for i in every]
+
+
+def states_at(points: Array) -> Array:
+    """States (k, 3) of points (k, 2) of the hemisphere."""
+    from .stepping.layout import states_of
+
+    return states_of(np.array(points, order="C"))[0]
+
+
+def _is_inside_disc(states: Array) -> Array:
+    return np.full(len(states), -1.0)
+
+
+def _blocks(at: FrozenSystem, psis: Sequence[Psi], states: Sequence[Array], options: Stepping) -> list[Trajectories]:
+    from .stepping.layout import BLOCKS
+    from .stepping.right_hand_side import problems
+
+    found: list[Trajectories] = []
+    for first in range(0, len(psis), BLOCKS):
+        some = slice(first, first + BLOCKS)
+        every = np.concatenate(states[some])
+        until = list(itertools.accumulate(map(len, states[some])))
+        found += in_lanes(at, problems(at, psis[some], options.backward), every, _is_inside_disc(every), until, options)
+    return found
 
 
 class OutcomeVerdict(NamedTuple):
@@ -81,10 +126,7 @@ def from_equator(
     lines: Trajectories | None = None,
     angles: Array = ARRIVAL_ANGLES,
 ) -> Trajectories:
-    """Follow the orbits that leave some limit directions (from 0) up the hemisphere, and those around the wide ones.
-
-    `lines` are the early parts of them, if they have been followed.
-    """
+    """Follow orbits that leave some limit directions (from 0), and those around wide ones; `lines`: early parts."""
     return _orbits_to_end(problem, lambda: _leaving_states([problem], which, wide, [angles])[0], lines)
 
 
@@ -217,10 +259,7 @@ def _points_around(problem: LayerProblem, wide: Sequence[int], angles: Array = A
 
 
 def begin_arrival_orbits(problems: Sequence[LayerProblem], which: Sequence[int]) -> list[Trajectories | None]:
-    """Integrate the early part of the orbits of `judge_arrivals`, under several Psi side by side; None without any.
-
-    Of all but the first, which are only compared with it, families are followed at their `OUTER_ANGLES` angles.
-    """
+    """Integrate the early part of the orbits of `judge_arrivals` under several Psi side by side; None without any."""
     if not which:
         return [None] * len(problems)
     follow = [not _all_end_on_C(problem) for problem in problems]
@@ -233,11 +272,7 @@ def begin_arrival_orbits(problems: Sequence[LayerProblem], which: Sequence[int])
 def judge_arrivals(
     problem: LayerProblem, which: Sequence[int], lines: Trajectories | None = None, angles: Array = ARRIVAL_ANGLES
 ) -> list[OutcomeVerdict]:
-    """Judge what arrives at some limit directions (from 0), where lambda_rho < 0: all orbits side by side.
-
-    `lines` are those of `begin_arrival_orbits`, if they have been integrated. With `OUTER_ANGLES` for angles the
-    verdicts are the same, but what they say of a whole family is not told of all of it.
-    """
+    """Judge what arrives at some limit directions (from 0), where lambda_rho < 0: all orbits side by side."""
     if not which:
         return []
     if lines is None and _all_end_on_C(problem):

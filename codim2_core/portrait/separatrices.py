@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..numerics.curves.polyline import distance
+from ..numerics.curves.arclength import distance
 from ..results.arrays import Array
 from ..results.words import say
 from ..systems.kinds import AnySystem, takes_names
@@ -16,9 +16,8 @@ from .cycles.limit_cycles import LimitCycles, cycles_of
 from .layer_problem.equator import EquatorEquilibria
 from .layer_problem.problem import LayerProblem
 from .omega_limits import drawn_time, radially_neutral
-from .orbits.options import PIXEL
-from .separatrix import Separatrices, Separatrix
-from .separatrix_branches import bent_branch, branches_inside, outside_half_saddle, ray
+from .orbits.seeds import PIXEL
+from .separatrix_branches import Separatrices, Separatrix, bent_branch, branches_inside, outside_half_saddle, ray
 
 __all__ = ["Separatrices", "Separatrix", "separatrices"]
 

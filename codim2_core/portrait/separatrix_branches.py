@@ -10,12 +10,15 @@ there and is followed too.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from ..results.arrays import Array
+from ..results.result import Pictured, Several, Tabled, result_rows
+from ..results.tables import paragraphs
 from ..results.words import say
 from ..systems.frozen import FrozenSystem
 from ..systems.psi.function import Psi
@@ -35,7 +38,77 @@ from .omega_limits import (
     radially_neutral,
 )
 from .orbits.trajectories import Status, Trajectories, concatenate, continuation, trajectories
-from .separatrix import Separatrix
+
+
+@dataclass(frozen=True, eq=False)
+class Separatrix(Tabled):
+    """One branch of an invariant manifold; arrays are read-only.
+
+    Attributes
+    ----------
+    origin : str
+        The saddle it belongs to: "C" ("C1", "C2", ... where there are several), "Q1", ...
+    direction : str
+        "unstable" (it leaves the origin) or "stable" (it enters it).
+    end : str
+        Where its other end lies: "C", "Q2", "equator" (the closed one), "cycle 1", "outside", or "undecided".
+    points : ndarray (m, 2)
+        The picture, in order of increasing time; includes origin and end where they are points.
+    departure_angle : float
+        Angle of its tangent at the origin, leaving it, radians; at the equator that of the direction Q.
+    arrival_angle : float or None
+        At the other end: theta on the equator, or the angle from C of the tangent at a node or saddle.
+    inside : bool
+        On the hemisphere; otherwise outside.
+    connection : bool
+        The other end is a saddle too: a saddle connection, within `gap`.
+    gap : float or None
+        Distance in the disc by which the two saddles' branches miss each other, where that was measured.
+    status : str
+        One sentence.
+    """
+
+    _head_ = ("of", "branch", "other end", "where")
+
+    origin: str
+    direction: str
+    end: str
+    points: Array = field(repr=False)
+    departure_angle: float
+    arrival_angle: float | None
+    inside: bool
+    connection: bool
+    gap: float | None
+    status: str
+
+    def _row_(self) -> tuple[str, ...]:
+        return self.origin, self.direction, self.end, "hemisphere" if self.inside else "outside"
+
+
+@dataclass(frozen=True, eq=False)
+class Separatrices(Several[Separatrix], Pictured):
+    """All separatrices; iterates over them.
+
+    Attributes
+    ----------
+    branches : tuple of Separatrix
+    notes : tuple of str
+        What has no separatrix because it is degenerate, saddle connections, branches left undecided.
+    """
+
+    _held_ = "branches"
+
+    branches: tuple[Separatrix, ...]
+    notes: tuple[str, ...] = ()
+
+    def _tables_(self) -> str:
+        return result_rows(self) + paragraphs(self.notes)
+
+    @property
+    def graph(self) -> tuple[tuple[str, str], ...]:
+        """(from, to) of each branch, in the direction of time."""
+        return tuple((b.origin, b.end) if b.direction == "unstable" else (b.end, b.origin) for b in self.branches)
+
 
 # Local invariant manifolds of a saddle of the layer problem, as polynomials of order ORDER.
 #
@@ -69,10 +142,7 @@ def _projected_velocity(at: FrozenSystem, psi: Psi, critical: CriticalSet, x2: A
 def expansion(
     at: FrozenSystem, psi: Psi, critical: CriticalSet, eigenvalue: float, reach: float
 ) -> tuple[Array, float]:
-    """Coefficients (ORDER + 1, 2) of W in powers of sigma, and its defect, for |sigma| <= reach.
-
-    defect: Largest ``|F(W) - lambda sigma W'|/|lambda|`` at sigma = +-reach: of order reach^(ORDER + 1).
-    """
+    """Coefficients (ORDER + 1, 2) of W in powers of sigma, and its relative defect at |sigma| = reach."""
     J = critical.jacobian
     # The longer row of J - lambda has the eigenvector across it.
     rows = J - eigenvalue * np.eye(2)
@@ -182,11 +252,7 @@ def branches_inside(problem: LayerProblem, t_max: float, rtol: float, pixel: flo
 def _tails(
     at: FrozenSystem, psi: Psi, lines: Trajectories, ends: list[Array | None], rtol: float, pixel: float, backward: bool
 ) -> list[list[Array]]:
-    """Points from where each line was left to the point where it ends; none where it ends at no point.
-
-    Lines that their time cut off, or that were captured at a distance, are followed to where they stop, in ever longer
-    times, and end where they come nearest to the point.
-    """
+    """Points from where each line was left to the point where it ends; none where it ends at no point."""
     tails: list[list[Array]] = [[] for _ in ends]
     left = np.array([points[-1] if len(points) else [math.nan, math.nan] for points in lines.points])
     away = [math.inf if end is None else math.dist(end, p) for end, p in zip(ends, left, strict=True)]

@@ -7,11 +7,7 @@ from typing import Any
 
 
 def rebind(function: Any, version: object = "", **names: Any) -> Any:
-    """Return a function with other values for some of the global names that it reads.
-
-    No closure does that for what is compiled and kept on disk: Numba finds a kernel again by its file, its qualified
-    name and what it closes over, and another kernel there is a new one in each process.
-    """
+    """Return a function with other values for some global names; Numba finds no closure on disk again."""
     made = FunctionType(
         function.__code__, {**function.__globals__, **names}, function.__name__, None, function.__closure__
     )

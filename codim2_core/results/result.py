@@ -11,8 +11,40 @@ from typing import Any, ClassVar, Generic, TypeVar, cast
 import numpy as np
 
 from . import drawing
-from .equality import ByValue
 from .tables import frame, html_table, write_csv
+
+
+class ByValue:
+    """A frozen dataclass made with ``eq=False``, as its fields hold arrays: equal by all numbers, NaN as itself."""
+
+    __slots__ = ()
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        return self is other or all(equal_values(value, getattr(other, name)) for name, value in compared_fields(self))
+
+    def __hash__(self) -> int:
+        texts = (value for _, value in compared_fields(self) if type(value) is str)  # equal numbers may differ in type
+        return hash((type(self), *texts))
+
+
+def compared_fields(result: ByValue) -> list[tuple[str, Any]]:
+    """Return the fields by which a result is compared, with their values."""
+    return [(one.name, getattr(result, one.name)) for one in fields(cast("Any", result)) if one.compare]
+
+
+def equal_values(one: Any, other: Any) -> bool:
+    """Whether two values of a field are equal: arrays by their numbers, tuples and mappings by what they hold."""
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        one, other = np.asarray(one), np.asarray(other)
+        return one.dtype.kind == other.dtype.kind and np.array_equal(one, other, equal_nan=one.dtype.kind in "fc")
+    if isinstance(one, tuple | list) and type(one) is type(other):
+        return len(one) == len(other) and all(map(equal_values, one, other))
+    if isinstance(one, Mapping) and isinstance(other, Mapping):
+        return one.keys() == other.keys() and all(equal_values(value, other[name]) for name, value in one.items())
+    return bool(one == other) or (one != one and other != other)
+
 
 LONGEST_PART, LONGEST_SENTENCE = 90, 300  # characters of a value within a line
 MAX_COLUMNS = 4  # numbers of an array or a tuple that a row of `to_frame` holds: a place, or z'

@@ -12,15 +12,12 @@ from ..portrait.classify import portrait, portrait_name
 from ..portrait.cycles.limit_cycles import closed_orbits, cycles_of
 from ..portrait.layer_problem.eigendirections import find_eigendirections
 from ..portrait.layer_problem.problem import find_critical, find_equator, find_equator_cycle, find_location
-from ..portrait.nullcline.direction_hyperbola import Conics, conics_of
-from ..portrait.nullcline.nullclines import NullclineBranch, inside_nullclines, outside_nullclines
-from ..portrait.nullcline.view_refinement import Seen
+from ..portrait.nullcline.conics import Conics, conics_of
+from ..portrait.nullcline.nullclines import NullclineBranch, Seen, inside_nullclines, outside_nullclines
 from ..portrait.separatrices import Separatrices, separatrices_of
-from ..portrait.sliding.flow import flow_on
+from ..portrait.sliding.filippov import flow_on
 from ..portrait.theorems.certificates import Certificate, certificates_of
-from .drawn_orbits import continuations, orbits, seeds_of
-from .launched_orbits import LaunchedOrbits, launched_orbits
-from .setting import SceneSetting
+from .launched_orbits import LaunchedOrbits, SceneSetting, continuations, launched_orbits, orbits, seeds_of
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,19 +20,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..portrait.layer_problem.problem import CachedFunction, LayerProblem, Result
-from ..portrait.orbits.options import LEAST_PIXEL, stepping
-from ..portrait.orbits.seeds import checked_seeds
+from ..portrait.orbits.seeds import LEAST_PIXEL, checked_seeds, stepping
 from ..results import drawing
-from ..results.equality import equal_values
-from ..results.result import Written
+from ..results.result import Written, equal_values
 from ..systems.arguments import number, whole_number
 from ..systems.arguments import psi as checked_psi
-from ..systems.bounds import slow_values
 from ..systems.frozen import FrozenSystem
 from ..systems.kinds import SYSTEM_KINDS, AnySystem
-from ..systems.presets.named import named_setting
+from ..systems.presets.presets import named_setting
 from ..systems.psi import constructors
 from ..systems.psi.function import Psi
+from ..systems.reading import slow_values
 from .layer_table import INPUTS, LAYER_OF_FUNCTION, layers
 
 ABSENT = object()  # in place of a result that is not kept

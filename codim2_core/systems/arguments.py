@@ -296,10 +296,7 @@ def _accepted(parameter: inspect.Parameter, names: bool) -> inspect.Parameter:
 
 
 def with_checks(function: Callable[..., Any], module: str, named_setting: Setting | None = None) -> Callable[..., Any]:
-    """Return a function that checks what it is given, under the name by which a module offers it.
-
-    A system that is text is looked up by `named_setting`, and what else it names stands for what is not given.
-    """
+    """Return a function that checks what it is given, under the name by which a module offers it."""
     signature = inspect.signature(function)
     parameters = signature.parameters
     checks = {name: _check(function.__name__, parameter) for name, parameter in parameters.items()}

@@ -3,21 +3,47 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
-from typing import ClassVar
+from typing import ClassVar, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..formulas.arrays import Terms
 from ..formulas.expression import Expression, parse
-from ..formulas.polynomial import Terms
 from ..results.arrays import join_columns
-from ..results.equality import ByValue
-from ..results.result import Listed
+from ..results.result import ByValue, Listed
 from .rows import affine_rows
+
+Value = TypeVar("Value")
+
+
+class Parameters(Mapping[str, Value]):
+    """Names and their numbers, in the order in which they were given; read-only, so that what holds them is a value."""
+
+    __slots__ = ("_values",)
+
+    def __init__(self, values: Mapping[str, Value]) -> None:
+        self._values = dict(values)
+
+    def __getitem__(self, name: str) -> Value:
+        return self._values[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    def __hash__(self) -> int:
+        return hash(frozenset(self._values.items()))
+
+    def __repr__(self) -> str:
+        return repr(self._values)
+
 
 Affine = tuple[float, float, float, float, float, float]
 #: What the core alone asks of a system at one z, of either kind.

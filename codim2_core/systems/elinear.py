@@ -22,11 +22,9 @@ from numpy.typing import ArrayLike
 from ..formulas.expression import Expression, parse
 from ..formulas.names import MOST_SLOW_VARIABLES
 from ..results.result import Listed
-from .bounds import MAX_NUMBER, MIN_NUMBER, at_place, slow_names, slow_values
-from .coefficients import Affine, Coefficients
-from .equations import Equations, equations_latex, equations_text, linear_rows, negative, with_left_sides
-from .exchange import Exchange
-from .parameters import Parameters
+from .coefficients import Affine, Coefficients, Parameters
+from .equations import Equations, Exchange, equations_latex, equations_text, linear_rows, negative, with_left_sides
+from .reading import MAX_NUMBER, MIN_NUMBER, at_place, slow_names, slow_values
 from .rows import elinear_rows
 
 

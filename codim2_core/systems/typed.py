@@ -15,13 +15,10 @@ from numpy.typing import ArrayLike
 from ..formulas.expression import Expression
 from ..formulas.names import SLOW_NAMES
 from ..results.result import Listed
-from .bounds import slow_values
-from .equations import Equations, equations_latex, equations_text, with_left_sides
-from .exchange import Exchange
-from .parameters import Parameters
-from .reading import parameter
-from .typed_at_z import Frozen
-from .typed_formulas import Formulas
+from .coefficients import Parameters
+from .equations import Equations, Exchange, equations_latex, equations_text, with_left_sides
+from .reading import parameter, slow_values
+from .typed_at_z import Formulas, Frozen
 
 
 class System(Listed, Formulas, Exchange):

@@ -20,8 +20,7 @@ from codim2_core.formulas.jit import call_at, carray, compile_address, inlined_f
 from codim2_core.portrait.orbits.seeds import structured_seeds
 from codim2_core.portrait.orbits.trajectories import trajectories
 from codim2_core.portrait.stepping import right_hand_side
-from codim2_core.portrait.stepping.field_parameters import FACTOR, GAIN
-from codim2_core.portrait.stepping.layout import LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN
+from codim2_core.portrait.stepping.layout import FACTOR, GAIN, LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN
 from codim2_core.portrait.stepping.right_hand_side import general_field
 
 from .bench_scene import PICTURE

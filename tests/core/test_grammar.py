@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.results.equality import equal_values
+from codim2_core.results.result import equal_values
 from tests.core.test_arguments import GOOD, SLOW
 
 SADDLE = c2.ELinear(-2.0, 0.3, -1.0, (-0.5, 0.0))

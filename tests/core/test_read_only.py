@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.portrait.sliding.slow_plane import directions_along, slow_plane
+from codim2_core.portrait.sliding.along_z import directions_along, slow_plane
 from tests.app.exports.test_shown import FOUR, RESULTS, result_of
 
 BALL = c2.examples.ball_in_pool()

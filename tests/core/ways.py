@@ -7,7 +7,7 @@ import pytest
 
 from codim2_core.formulas.jit import interpreted, policy, right_hand_sides
 from codim2_core.motion.initial_value import functions, motion_steps, slow_steps
-from codim2_core.motion.initial_value.kernels import departure_step, slow
+from codim2_core.motion.initial_value.kernels import slow
 
 WAYS = ("compiled", "as Python")
 
@@ -15,7 +15,7 @@ WAYS = ("compiled", "as Python")
 def follow(monkeypatch: pytest.MonkeyPatch, way: str) -> None:
     """Follow motions in one way, whatever has been asked for before."""
     if way == "as Python":
-        for module, name in ((motion_steps, "follow_steps"), (slow_steps, "sets"), (departure_step, "leave")):
+        for module, name in ((motion_steps, "follow_steps"), (slow_steps, "sets"), (slow, "leave")):
             monkeypatch.setattr(module, name, partial(run_as_python, getattr(module, name)))
         flow = tuple(waiting(monkeypatch, one) for one in (slow._slow_velocity, slow._slow_slopes))
         own = tuple(waiting(monkeypatch, one) for one in (functions._interpreted_values, functions._interpreted_slopes))

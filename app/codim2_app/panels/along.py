@@ -12,9 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from codim2_core.motion.limit.predicted_delays import delays
-from codim2_core.portrait.attracting_set import attracting_set
-from codim2_core.portrait.sliding.along_z import slow_portrait
-from codim2_core.portrait.sliding.slow_plane import slow_plane
+from codim2_core.portrait.classification import attracting_set
+from codim2_core.portrait.sliding.along_z import slow_plane, slow_portrait
 from codim2_core.portrait.sliding.slow_portrait_result import SlowPortrait
 from codim2_core.results.words import written_label
 from codim2_core.systems.psi.function import Psi

@@ -12,8 +12,7 @@ from typing import Any
 import numpy as np
 
 from codim2_core.portrait.layer_problem.critical import critical_sets
-from codim2_core.portrait.sliding.affine import AffinePlane, affine_plane
-from codim2_core.portrait.sliding.filippov import filippov_sliding
+from codim2_core.portrait.sliding.filippov import AffinePlane, affine_plane, filippov_sliding
 from codim2_core.systems.psi.function import Psi
 
 from ..picture.frame.frame_context import FrameContext

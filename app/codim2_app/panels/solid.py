@@ -13,8 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from codim2_core.portrait.sliding.along_z import slow_portrait
-from codim2_core.portrait.sliding.slow_plane import directions_along
+from codim2_core.portrait.sliding.along_z import directions_along, slow_portrait
 from codim2_core.scene import Scene
 from codim2_core.systems.psi.function import Psi
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from codim2_core.results.words.sentence import Sentence, read_tables
+from codim2_core.results.words import Sentence, read_tables
 
 #: What the page asks; also the title of a file that is none of the paper's figures.
 PAGE_TITLE = "When friction stops pointing anywhere"

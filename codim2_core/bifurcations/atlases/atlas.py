@@ -13,9 +13,8 @@ from numpy.typing import ArrayLike
 from ...portrait.layer_problem.vary import check_name, limits, value_of
 from ...portrait.layer_problem.vary import names as names_of
 from ...results.arrays import Array, read_only
-from ...systems.affine import as_elinear, in_axes_of
 from ...systems.arguments import short_repr
-from ...systems.kinds import AnySystem, takes_names
+from ...systems.kinds import AnySystem, as_elinear, in_axes_of, takes_names
 from ...systems.psi.function import Psi
 from ..families.disc import disc_family, force_matrix
 from ..families.family import Ranges, SystemFamily

@@ -11,7 +11,7 @@ from itertools import count
 
 import numpy as np
 
-from ...numerics.curves.polyline import distance
+from ...numerics.curves.arclength import distance
 from ...results.arrays import Array
 from ..diagrams.classes import classes_over
 from ..families.family import SystemFamily

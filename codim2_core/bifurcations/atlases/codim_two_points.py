@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...numerics.curves.arclength import zero_between
-from ...numerics.curves.newton import newton
+from ...numerics.curves.arclength import newton, zero_between
 from ...results.arrays import Array
 from ...results.special_kinds import HOPF, NODE_FOCUS
 from ...results.words import say

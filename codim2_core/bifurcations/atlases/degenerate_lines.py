@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...numerics.root_between import root_between
+from ...numerics.sign_changes import root_between
 from ...results.arrays import Array
 from ..families.family import SystemFamily
 

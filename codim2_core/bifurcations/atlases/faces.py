@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from ...numerics.curves.polyline import distance, feet
+from ...numerics.curves.arclength import distance, feet
 from ...results.arrays import Array
 
 Edge = tuple[int, int]

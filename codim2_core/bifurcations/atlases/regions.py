@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...numerics.curves.polyline import distance, feet
+from ...numerics.curves.arclength import distance, feet
 from ...results.arrays import Array, read_only
 from ..diagrams.classes import Classes, classes_over
 from ..families.family import SystemFamily

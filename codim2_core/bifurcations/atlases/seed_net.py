@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...numerics.curves.newton import Condition
-from ...numerics.root_between import root_between
+from ...numerics.curves.arclength import Condition
+from ...numerics.sign_changes import root_between
 from ...portrait.layer_problem.critical import critical_sets
 from ...results.arrays import Array
 from ...results.special_kinds import DETERMINANT, SPECIAL_KINDS

@@ -9,8 +9,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...numerics.curves.arclength import CurveEdge, StepBounds, TracedLine, square_edges, tangent, trace_curve
-from ...numerics.curves.newton import Condition, newton
+from ...numerics.curves.arclength import (
+    Condition,
+    CurveEdge,
+    StepBounds,
+    TracedLine,
+    newton,
+    square_edges,
+    tangent,
+    trace_curve,
+)
 from ...results.arrays import Array
 from ...results.special_kinds import SpecialKind
 from ..families import conditions

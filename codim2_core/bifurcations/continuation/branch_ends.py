@@ -10,9 +10,9 @@ from typing import Protocol
 
 import numpy as np
 
-from ...numerics.root_between import root_between
-from ...portrait.cycles.heteroclinic_arcs import heteroclinic_arcs
+from ...numerics.sign_changes import root_between
 from ...portrait.cycles.heteroclinic_cycle import loop_gap
+from ...portrait.cycles.ray_section import heteroclinic_arcs
 from ...portrait.layer_problem.problem import LayerProblem
 from ...results.arrays import Array
 from ...results.words import say

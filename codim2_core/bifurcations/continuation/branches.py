@@ -16,8 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...portrait.cycles.limit_cycles import LimitCycle, closed_orbits, excluding_theorem
-from ...portrait.cycles.ray import best_crossing, crossing_qualities
-from ...portrait.cycles.ray_section import HemispherePoint, TurnSection, room
+from ...portrait.cycles.ray_section import HemispherePoint, TurnSection, best_crossing, crossing_qualities, room
 from ...portrait.layer_problem.problem import LayerProblem
 from ...portrait.layer_problem.vary import limits, vary
 from ...results.arrays import Array

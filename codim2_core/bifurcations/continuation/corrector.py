@@ -12,7 +12,7 @@ from dataclasses import replace
 from itertools import accumulate, pairwise
 from typing import NamedTuple
 
-from ...numerics.root_between import root_through
+from ...numerics.sign_changes import root_through
 from .continuation_points import ContinuationPoint, ReturnMapPoint, TurnGuess
 from .predictor import CurvePoint, interpolate, predict
 from .turns import VariedRay

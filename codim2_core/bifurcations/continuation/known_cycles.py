@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ...numerics.curves.polyline import distance
+from ...numerics.curves.arclength import distance
 from ...portrait.cycles.limit_cycles import LimitCycle
 from ...results.arrays import Array
 from .branch_ends import BranchEnd

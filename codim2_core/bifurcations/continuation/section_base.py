@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ...numerics.curves.newton import newton
+from ...numerics.curves.arclength import newton
 from ...portrait.cycles.ray_section import HemispherePoint
 from ...portrait.layer_problem.problem import LayerProblem
 from ...results.arrays import Array

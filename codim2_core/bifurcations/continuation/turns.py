@@ -17,8 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...portrait.cycles.periodic_orbit import STEP_NODES, gauss, path
-from ...portrait.cycles.ray import Ray
-from ...portrait.cycles.ray_section import HemispherePoint, room
+from ...portrait.cycles.ray_section import HemispherePoint, Ray, room
 from ...portrait.layer_problem.problem import LayerProblem
 from ...results.arrays import Array
 from ...systems.psi.function import Psi

@@ -5,8 +5,7 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from ...portrait.layer_problem.vary import check_name, usual_span
-from ...systems.affine import in_axes_of
-from ...systems.kinds import AnySystem, takes_names
+from ...systems.kinds import AnySystem, in_axes_of, takes_names
 from ...systems.psi.function import Psi
 from .equilibrium_branches import equilibrium_branches
 from .result import Branches

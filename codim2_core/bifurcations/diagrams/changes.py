@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...numerics.root_between import root_between
+from ...numerics.sign_changes import root_between
 from .states import State, States
 
 __all__ = ["SIDE_STEP", "Change", "changes_between", "look_near"]

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...portrait.layer_problem.problem import LayerProblem
 from ...portrait.layer_problem.vary import check_varying, vary
 from ...results.arrays import Array
-from ...systems.affine import as_elinear
+from ...systems.kinds import as_elinear
 from ...systems.psi.function import Psi
 from .states import State
 

@@ -18,7 +18,7 @@ import math
 
 import numpy as np
 
-from ...numerics.curves.newton import Condition
+from ...numerics.curves.arclength import Condition
 from ...results.arrays import Array
 from ...results.special_kinds import SpecialKind
 from .family import SystemFamily

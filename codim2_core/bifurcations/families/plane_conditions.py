@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ...numerics.curves.newton import Condition
+from ...numerics.curves.arclength import Condition
 from ...results.arrays import Array
 from .family import AXES, SystemFamily
 

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from .angles import ATAN, COS, SIN, TAN
-from .elementary import COSH, EXP, LOG, SINH, SQRT, TANH
+from .elementary import ABS, ATAN, COS, COSH, EXP, FLOOR_FUNCTION, LOG, SIGN_FUNCTION, SIN, SINH, SQRT, TAN, TANH
 from .elliptic import ELLIPTIC
 from .function import Function
-from .kinked import ABS, FLOOR_FUNCTION, SIGN_FUNCTION
 
 __all__ = ["FIRST_CODE", "FUNCTIONS", "Function", "called", "code", "known"]
 

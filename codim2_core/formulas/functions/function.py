@@ -27,7 +27,7 @@ class Function:
     entire: bool = False  # smooth wherever u is finite
     source: str = ""  # python of it, `{0}` the argument; empty for a call by its name
     # how many units of 2^-51 f and f', as the kernels compute them, may be off at most; 0 where
-    # `numerics.intervals` bounds it by rules of its own. Else f and f' are monotone, up to `until`, beyond which
+    # `numerics.enclosure` bounds it by rules of its own. Else f and f' are monotone, up to `until`, beyond which
     # they are undefined
     blur: float = 0.0
     until: float = float("inf")  # the end of where it is defined

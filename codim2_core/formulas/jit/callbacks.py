@@ -11,10 +11,7 @@ POINTER = ctypes.c_void_p
 
 
 class Callback:
-    """A Python function of numbers that is called by its `address`; it must outlive that.
-
-    Kernels must not give up the interpreter while they call it (`held_kernel`): each call would wait for it.
-    """
+    """A Python function of numbers, called by its `address` while the interpreter is held; it must outlive that."""
 
     def __init__(self, function: Callable[..., Iterable[float]], takes: int, gives: int) -> None:
         self.error: BaseException | None = None

@@ -2,19 +2,60 @@
 
 Numba refuses to load a module whose cache it cannot write, and fails when the disk is full. A container with a
 read-only root, another user, no home or a full disk is no reason to compute nothing.
+
+Stamps of what a kernel on disk was compiled from.
+
+Numba keeps a compiled kernel next to its module, under a digest of that one file; but what a kernel calls, and
+the constants that it reads, are compiled into it from other modules. Here a kernel is out of date when the text of any
+module of this package changes that its own imports, itself or through others: after an upgrade in place, or in another
+branch, nobody runs yesterday's formulas.
 """
 
 from __future__ import annotations
 
 import logging
+import re
 from functools import cache
+from hashlib import blake2b
 from pathlib import Path
 from typing import Any
 
 from numba.core import caching
 from numba.core import config as numba_config
 
-from .stamps import CORE_FOLDER
+CORE_FOLDER = Path(__file__).parents[2]
+IMPORT = re.compile(r"^ *from (\.+)([\w.]*) import (?:\(([^)]*)\)|(.*))$", re.MULTILINE)  # a relative one
+
+
+@cache
+def source_stamp(path: Path, root: Path = CORE_FOLDER) -> str:
+    """Return a digest of the text of a module and of all modules below a folder that it imports, directly or not."""
+    reached, waiting = set[Path](), [path]
+    while waiting:
+        here = waiting.pop()
+        if here not in reached:
+            reached.add(here)
+            waiting.extend(_read_module(here, root)[1])
+    digest = blake2b(digest_size=16)
+    for one in sorted(reached):
+        digest.update(_read_module(one, root)[0])
+    return digest.hexdigest()
+
+
+@cache
+def _read_module(path: Path, root: Path) -> tuple[bytes, tuple[Path, ...]]:
+    """Return a digest of a module's text, and the files below the root that it imports."""
+    text = path.read_bytes()
+    found: list[Path] = []
+    for dots, name, *names in IMPORT.findall(text.decode()):
+        folder = path.parents[len(dots) - 1].joinpath(*name.split("."))
+        for one in (folder, *(folder / name for name in re.findall(r"\w+", "".join(names)))):
+            found += [file for file in (one.with_suffix(".py"), one / "__init__.py") if file.is_file()]
+    # the root's own __init__ offers everything, and nothing is taken from there
+    return blake2b(text, digest_size=16).digest(), tuple(
+        file for file in found if file.is_relative_to(root) and file != root / "__init__.py"
+    )
+
 
 config: Any = numba_config  # its names are made at run time
 
@@ -38,20 +79,14 @@ class AsItIs(caching.InTreeCacheLocator):
 
 
 def _locators() -> list[type[Any]]:
-    """Return Numba's locators, in the order in which it asks them, with those that only read.
-
-    A folder that the host has warmed comes before a home that can be written, where nothing is.
-    """
+    """Return Numba's locators in its order, with those that only read: a warmed folder comes before a home."""
     first, *others = caching.CacheImpl._locator_classes  # noqa: SLF001 (Numba hands out no other way to them)
     return [first, AsGiven, *others, AsItIs]
 
 
 @cache
 def prepare() -> str:
-    """Let kernels be loaded whatever can be written; return a sentence if nothing can be kept, else "".
-
-    Called before the first kernel is declared.
-    """
+    """Let kernels be loaded, before the first is declared, whatever can be written; say if nothing can be kept."""
     save = caching.FunctionCache.save_overload
 
     def saved_if_possible(self: Any, sig: Any, data: Any) -> None:
@@ -60,7 +95,16 @@ def prepare() -> str:
         except OSError as error:
             _say_once(UNCACHED.format(why=error.strerror))
 
+    load = caching.IndexDataCacheFile._load_index  # noqa: SLF001 (it has no public name)
+
+    def loaded_if_possible(self: Any) -> dict[Any, Any]:
+        try:
+            return load(self)
+        except (ImportError, AttributeError):  # of an older version of this package, where a type had another home
+            return {}
+
     caching.FunctionCache.save_overload = saved_if_possible
+    caching.IndexDataCacheFile._load_index = loaded_if_possible  # noqa: SLF001
     if config.CACHE_LOCATOR_CLASSES:
         return ""  # the host has named its own
     locators = _locators()

@@ -58,10 +58,7 @@ class TabledKernel:
         self._signatures: dict[tuple[Any, ...], _Signature] = {}  # by the types of arguments that have come
 
     def __call__(self, *given: Any) -> Any:
-        """Run it.
-
-        Raises NotImplementedError: It was not compiled for arguments such as these.
-        """
+        """Run it; NotImplementedError where it was not compiled for arguments such as these."""
         types = tuple(
             [
                 (one.dtype.char, one.ndim, one.flags.c_contiguous) if type(one) is np.ndarray else type(one)

@@ -17,8 +17,8 @@ from numba.core.dispatcher import Dispatcher
 
 from ...results.rebind import rebind
 from . import disk_cache, policy
+from .disk_cache import CORE_FOLDER, source_stamp
 from .right_hand_sides import compile_waiting, right_hand_side
-from .stamps import CORE_FOLDER, source_stamp
 from .tiers import TieredKernel
 
 ARITHMETIC = {"contract", "reassoc", "nsz", "arcp"}  # NaN and infinity keep their meaning

@@ -28,18 +28,7 @@ _machine_code_runs = False  # it calls right-hand sides: none may wait any longe
 
 
 class RightHandSide:
-    """A right-hand side that waits to be compiled, at an address that it keeps.
-
-    Parameters
-    ----------
-    function : function
-    compiled : CFunc
-        The same, not compiled yet.
-
-    Attributes
-    ----------
-    address : int
-    """
+    """A right-hand side that waits to be compiled, at an `address` that it keeps."""
 
     def __init__(self, function: Callable[..., None], compiled: CFunc) -> None:
         self._function, self._compiled = function, compiled

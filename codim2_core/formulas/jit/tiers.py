@@ -45,10 +45,7 @@ def is_on_disk(cache: Any, signature: Any) -> bool:
 
 
 def may_wait(cache: Any, signature: Any, name: str) -> bool:
-    """Whether a function is neither to be compiled now nor loaded.
-
-    Raises NotCompiledError.
-    """
+    """Whether a function is neither to be compiled now nor loaded; raises NotCompiledError."""
     way = policy.current_way()
     if way == policy.PYTHON:
         return True
@@ -60,19 +57,7 @@ def may_wait(cache: Any, signature: Any, name: str) -> bool:
 
 
 class TieredKernel:
-    """The tiers of one kernel.
-
-    Parameters
-    ----------
-    kernel : Dispatcher
-    before : callable
-        Called before machine code runs that calls right-hand sides by their addresses.
-
-    Attributes
-    ----------
-    seconds : float
-        So long it has run as Python.
-    """
+    """The tiers of one kernel; `before` is called before machine code that calls right-hand sides by address."""
 
     def __init__(self, kernel: Any, before: Callable[[], None]) -> None:
         self.kernel, self.seconds, self._before = kernel, 0.0, before

@@ -19,7 +19,7 @@ from ...formulas.expression import Expression, parse
 from ...formulas.names import FAST_NAMES, SLOW_NAMES, TIME
 from ...numerics.along import MAX_ZEROS, zeros_along
 from ...numerics.radau import Step, truncate_step
-from ...numerics.root_between import root_between
+from ...numerics.sign_changes import root_between
 from ...results.arrays import Array
 
 DEGREES = (8, 16, 32, 64)  # of the polynomials tried for an event along a step
@@ -209,10 +209,7 @@ def _formula_zeros(program: Program, step: Step) -> list[tuple[float, bool]]:
 def monotone_fractions(
     along: Callable[[float], float], start: float, end: float, degrees: Sequence[int] = DEGREES, halvings: int = 0
 ) -> tuple[list[float], list[float]]:
-    """Return fractions of a step, between which a function along it is monotone, and its values there.
-
-    Where no polynomial explains the function, its halves are looked at, so many times.
-    """
+    """Return fractions of a step between which a function is monotone, and its values there."""
     nodes, values, polynomial, size = np.empty(0), np.empty(0), np.empty(0), 0.0
     for degree in degrees:
         nodes = 0.5 - 0.5 * np.cos(math.pi * np.arange(degree + 1) / degree)

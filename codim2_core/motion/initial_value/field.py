@@ -16,14 +16,68 @@ from typing import Any
 import numpy as np
 
 from ...formulas.expression import Expression
-from ...formulas.functions import called
+from ...formulas.functions import called, known
 from ...formulas.names import FAST_NAMES, SLOW_NAMES
-from ...formulas.source import program
 from ...formulas.switches import Branch, branch_at, has_switches
+from ...formulas.tape import BESIDE_ZERO, BESIDE_ZERO_SOURCE, FUNCTIONS_OF_TWO, Builder, Node
 from ...results.arrays import Array
 from ...systems.kinds import AnySystem
 from ...systems.rows import constant, fill_template
 from ...systems.typed import System
+
+
+def program(rows: Sequence[Expression]) -> tuple[list[str], list[str]]:
+    """Return statements ``t7 = t3*t4``, one for each distinct operation, and a name or a number for each formula."""
+    build = Builder()
+    roots = [_entry_of(build, row) for row in rows]
+    shown, statements = list[str](), list[str]()
+    for k, (op, *args) in enumerate(build.nodes):
+        if op == "num":
+            shown.append(f"({args[0]!r})" if args[0] < 0.0 else repr(args[0]))
+        elif op == "name":
+            shown.append(args[0])
+        else:
+            exponent = _integer(build.nodes[args[1]]) if op == "**" else None
+            statements.append(f"t{k} = {_operation(op, [shown[i] for i in args], exponent)}")
+            shown.append(f"t{k}")
+    return statements, [shown[i] for i in roots]
+
+
+def _entry_of(build: Builder, row: Expression) -> int:
+    """Entry of a formula among those already there."""
+    at: list[int] = []
+    for op, *args in row.tape:
+        if op == "num":
+            at.append(build.number(args[0]))
+        elif op == "name":
+            at.append(build.name(args[0]))
+        else:
+            at.append(build.apply(op, *(at[i] for i in args)))
+    return at[-1]
+
+
+def _integer(node: Node) -> int | None:
+    return int(node[1]) if node[0] == "num" and float(node[1]).is_integer() else None
+
+
+def _operation(op: str, args: list[str], exponent: int | None) -> str:
+    if op == "neg":
+        return f"-{args[0]}"
+    if op in FUNCTIONS_OF_TWO:
+        return f"{op}({args[0]}, {args[1]})"
+    if op == BESIDE_ZERO:
+        return BESIDE_ZERO_SOURCE.format(*args)
+    if len(args) == 1:
+        return known[op].python_source(args[0])
+    if op != "**":
+        return f"{args[0]}{op}{args[1]}"
+    if exponent is None:
+        return f"math.sqrt({args[0]})" if args[1] == "0.5" else f"math.pow({args[0]}, {args[1]})"
+    if exponent == 0:
+        return "1.0"
+    # A literal integer exponent becomes multiplications when compiled.
+    return f"{args[0]}**{exponent}" if exponent > 0 else f"1.0/{args[0]}**{-exponent}"
+
 
 ONE_SIDED_DISTANCE = 1e-9
 
@@ -117,11 +171,7 @@ class Field:
 
 @lru_cache(maxsize=32)
 def field(system: AnySystem) -> Field:
-    """U and W of any system as functions of numbers; made once for each system.
-
-    Raises ValueError: An ELinear made `from_matrix` whose rotation into the normal form depends on z: its axes turn
-    with z.
-    """
+    """U and W of any system as functions of numbers, made once; ValueError where the normal form's axes turn with z."""
     return _make_field(system.rows(), system.m)
 
 
@@ -169,3 +219,52 @@ def function_of(rows: Sequence[Expression], names: Sequence[str]) -> Callable[..
     scope: dict[str, Any] = {"math": math, "beyond": ieee_values, **called}
     exec(source, scope)  # written by `program`: its own names, numbers and math.* only
     return scope["function"]
+
+
+@dataclass(frozen=True, eq=False)
+class Slopes:
+    """U and W of (2.7) and their exact derivatives as functions of arrays."""
+
+    m: int  # the number of slow variables
+    kept: tuple[tuple[str, float], ...]  # numbers of the system by which it is also differentiated, with their values
+    rows: tuple[Expression, ...]  # the formulas of U and W, (2 + m,)
+    derivatives: tuple[tuple[Expression, ...], ...]  # theirs by (c, s, x, y, z1, ..., zm, kept), (2 + m, 4 + m + q)
+
+    def rates(self, e: Array, states: Array) -> Array:
+        """(U, W) (k, 2 + m) at e (k, 2) and states (k, 2 + m)."""
+        values = self._values(e, states)
+        return np.stack([np.broadcast_to(row.evaluate(values), len(e)) for row in self.rows], axis=-1)
+
+    def at(self, e: Array, states: Array) -> Array:
+        """Their derivatives (k, 2 + m, 4 + m + q) at e (k, 2) and states (k, 2 + m)."""
+        values = self._values(e, states)
+        found = np.zeros((len(e), 2 + self.m, 4 + self.m + len(self.kept)))
+        for i, row in enumerate(self.derivatives):
+            for j, slope in enumerate(row):
+                if slope.constant != 0.0:
+                    found[:, i, j] = slope.evaluate(values)
+        return found
+
+    def of_state(self, e: Array, De: Array, states: Array) -> Array:
+        """Differentiate them (k, 2 + m, 2 + m + q) by (x, y, z) and the kept numbers; (x, y) moves e as De says."""
+        slopes = self.at(e, states)
+        found = slopes[:, :, 2:].copy()
+        found[:, :, :2] += slopes[:, :, :2] @ De
+        return found
+
+    def _values(self, e: Array, states: Array) -> dict[str, Array | float]:
+        columns = (*e.T, *states.T)
+        return dict(zip((*FAST_NAMES, *SLOW_NAMES[: self.m]), columns, strict=True)) | dict(self.kept)
+
+
+def slopes_of(system: AnySystem, kept: Sequence[str] = ()) -> Slopes:
+    """Return the derivatives of any system's field; ValueError where a name is none of the system's."""
+    for name in kept:
+        if name not in system.variable:
+            own = ", ".join(system.variable) or "none"
+            raise ValueError(f"{name!r} is no number of this system; it has {own}.")
+    rows = system.rows(kept)
+    m = len(rows) - 2
+    by = (*FAST_NAMES, *SLOW_NAMES[:m], *kept)
+    derivatives = tuple(tuple(row.derivative(name) for name in by) for row in rows)
+    return Slopes(m, tuple((name, system.value_of(name)) for name in kept), tuple(rows), derivatives)

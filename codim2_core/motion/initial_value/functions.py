@@ -16,7 +16,7 @@ from ...formulas.jit import SCRATCH_SIZE, carray, compile_address, inlined_fast_
 from ...formulas.jit.callbacks import Callback
 from ...formulas.names import FAST_NAMES, SLOW_NAMES
 from ...formulas.packed import BOUND, RESULTS, SIZE, at_address, pack, run_packed
-from ...portrait.stepping.field_parameters import PSI
+from ...portrait.stepping.layout import PSI
 from ...portrait.stepping.psi_gain import gain_parameter, one_gain
 from ...results.arrays import Array
 from ...systems.psi.constructors import constant

@@ -20,8 +20,7 @@ from ...formulas.names import FAST_NAMES, SLOW_NAMES
 from ...numerics.along import first_defect, zeros_along
 from ...numerics.dense import StepArray
 from ...results.arrays import Array
-from ...systems.psi.direction import direction
-from ...systems.psi.function import Psi
+from ...systems.psi.function import Psi, direction
 from .field import Field
 from .kernels.explicit import DENSE_DEGREE
 from .line import InvariantLine
@@ -98,10 +97,7 @@ class Inspection:
         self.undecided = 0  # steps that could not be bounded, so that only samples speak for them
 
     def look(self, steps: StepArray, ended: tuple[Array, float] | None = None, least: float = 0.0) -> Cut | None:
-        """Return where steps cannot be kept; None if all can.
-
-        `ended`: where no step could be made, and when. `least`: the shortest step that may be made.
-        """
+        """Return where steps cannot be kept, or None; `ended`: where and when none could be made; `least`: shortest."""
         self.near = LEAST_STEPS * least
         if not len(steps.lengths):
             if ended is None or self.guards is None:

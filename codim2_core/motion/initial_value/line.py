@@ -14,7 +14,7 @@ from functools import cache
 
 import numpy as np
 
-from ...numerics.root_between import root_between
+from ...numerics.sign_changes import root_between
 from ...results.arrays import Array
 from .field import Field
 
@@ -49,10 +49,7 @@ class InvariantLine:
         return float(self.n @ self.field.jacobian(c, s, 0.0, 0.0, z.tolist())[:2, :2] @ self.n)
 
     def onward(self, q: float, z: Array) -> float | None:
-        """Return the limit of the layer problem from q: the first zero of n.U, or +-1, an end; None if it rests.
-
-        Shapes: z (m,).
-        """
+        """Return the limit of the layer problem from q: the first zero of n.U, or an end, +-1; None if it rests."""
         rate = self.radial_speed(q, z)
         if not rate:
             return None
@@ -67,12 +64,7 @@ class InvariantLine:
 
 
 def invariant_line(field: Field, state: Array, left: InvariantLine | None = None) -> InvariantLine | None:
-    """Return the invariant line that a motion lies in; None if it lies in none.
-
-    z may lie in an invariant subspace: the line is evaluated for z in the span of z and W there.
-
-    Shapes: state (2 + m,).
-    """
+    """Return the invariant line in which a motion at a state (2 + m,), with z in the span of z and W, lies, or None."""
     x, y = state[:2].tolist()
     r = math.hypot(x, y)
     if r > 0.0:

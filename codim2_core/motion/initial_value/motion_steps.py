@@ -12,8 +12,7 @@ from ...numerics.dense import StepArray
 from ...numerics.radau import BlowUpError, StepsTooShortError, TooManyStepsError, tableau, too_short
 from ...results.arrays import Array
 from ...results.words import say
-from ...systems.psi.direction import direction
-from ...systems.psi.function import Psi
+from ...systems.psi.function import Psi, direction
 from .field import Field
 from .functions import FieldFunctions
 from .inspection import Inspection
@@ -48,7 +47,7 @@ LEAST_CUT = 1e-12  # of a step: a shorter part of it is not kept
 
 @lru_cache(maxsize=1)
 def numbers_of_tableau() -> Array:
-    """Return the numbers of Radau IIA as `kernels.stages.tableau_of` reads them."""
+    """Return the numbers of Radau IIA as `kernels.radau.tableau_of` reads them."""
     table = tableau()
     return np.concatenate([[table.gamma], table.nodes, table.A.ravel(), table.error, table.fit.ravel()])
 
@@ -64,10 +63,7 @@ def rate_at(field: Field, psi: Psi | None, eps: float, line: InvariantLine | Non
 
 
 def failure(code: int, t: float, state: Array, rate: Callable[[Array], Array], least: float = 0.0) -> Exception | None:
-    """Say why a motion has ended before its time; None where it has not.
-
-    Shapes: state (n,).
-    """
+    """Say why a motion has ended at a state (n,) before its time; None where it has not."""
     if code == LIMIT:
         return TooManyStepsError()
     if code == BLOWN_UP:
@@ -78,50 +74,25 @@ def failure(code: int, t: float, state: Array, rate: Callable[[Array], Array], l
 
 
 class MotionSteps:
-    """One motion under way.
-
-    Parameters
-    ----------
-    functions : FieldFunctions
-    rate : callable
-        The rate of a state in Python: it says why the motion ends.
-    eps : float
-        0 outside Sigma: it then stops where it is as close to Sigma as `kernels.motion.arrived` says.
-    line : InvariantLine or None
-        The invariant line it stays in.
-    span : (t_start, t_end)
-    first : ndarray (n,)
-    rtol, floor : float
-        Errors of x and y are measured by rho, those of z by |z| + floor; times rtol they may be made in a step.
-    most : int
-        Steps tried before `TooManyStepsError`.
-    farthest : float
-        The largest rho so far, of a motion outside Sigma.
-    h, least, longest : float
-        The first step, 0 if it is not known; a shorter one than `least` ends the motion, none is longer than `longest`.
-    implicit : bool
-        Every step is: the slopes are then requested once where it begins, and where each step ends.
-    inspection : Inspection, optional
-        Of its steps: the motion stops where the formulas switch.
-    """
+    """One motion under way, which stops where the formulas switch, if its steps are inspected."""
 
     def __init__(
         self,
         functions: FieldFunctions,
-        rate: Callable[[Array], Array],
-        eps: float,
+        rate: Callable[[Array], Array],  # of a state, in Python: it says why the motion ends
+        eps: float,  # 0 outside Sigma: it then stops as near to Sigma as `kernels.motion.arrived` says
         line: InvariantLine | None,
         span: tuple[float, float],
         first: Array,
         rtol: float,
-        floor: float,
-        most: int,
+        floor: float,  # errors of x and y are measured by rho, those of z by |z| + floor
+        most: int,  # steps tried before `TooManyStepsError`
         *,
-        farthest: float = 0.0,
-        h: float = 0.0,
-        least: float = 0.0,
+        farthest: float = 0.0,  # the largest rho so far, of a motion outside Sigma
+        h: float = 0.0,  # the first step, 0 if it is not known
+        least: float = 0.0,  # a shorter step ends the motion
         longest: float = math.inf,
-        implicit: bool = False,
+        implicit: bool = False,  # every step is; the slopes are requested where it begins, and where each step ends
         inspection: Inspection | None = None,
     ) -> None:
         self.inspection, self.switch, self._evaluated = inspection, None, 0.0
@@ -141,11 +112,7 @@ class MotionSteps:
         return int(self._evaluated + self.clock[3])
 
     def chunks(self, size: int = STEPS_PER_CALL) -> Iterator[StepArray]:
-        """Step to the end, so many steps at a time.
-
-        Raises BlowUpError: The state grows beyond all bounds in no time. Raises TooManyStepsError,
-        StepsTooShortError.
-        """
+        """Step to the end, so many steps at a time; raises BlowUpError, TooManyStepsError and StepsTooShortError."""
         n, most = len(self.y), size
         if self.inspection is not None:  # what follows a cut, or a switch, is lost
             size = min(size, 4 * FIRST_STEPS if self.inspection.guards is None else FIRST_STEPS)

@@ -23,11 +23,14 @@ from numpy.typing import ArrayLike
 
 from ...numerics.dense import Dense, dense, gather_steps
 from ...numerics.radau import Step, truncate_step
-from ...numerics.root_between import root_between
+from ...numerics.sign_changes import root_between
 from ...results.arrays import Array, Complex
+from ...results.words import say
 from ...systems.psi.function import Psi
 from ..initial_value.field import Field
 from ..initial_value.slow_manifold import complement, solve_critical
+from ..tracked_set import in_disc, jacobian
+from .sigma_decision import ORBITS_AROUND, START_DISTANCE
 from .slide import Slide
 
 MAX_SUPPORT_POINTS = 40  # support points
@@ -126,10 +129,7 @@ class DelayedExitPoint:
 def cut_at_exit(
     field: Field, psi: Psi, taken: Sequence[Step], places: Sequence[Array], part: Slide
 ) -> tuple[Slide, DelayedExitPoint | None]:
-    """Cut a slide on an unstable critical set where the motion leaves it.
-
-    Raises NotAnalyticError. Shapes: places (2,).
-    """
+    """Cut a slide on an unstable critical set where the motion leaves it; raises NotAnalyticError."""
     if not part.taken:
         return part, None
     growth = Growth(field, psi, [*taken, *part.taken], [*places, *part.places[1:]])
@@ -157,12 +157,7 @@ class Growth:
         self.at = np.concatenate([[0.0], np.cumsum(self._integrals(self.cuts[:-1], self.cuts[1:]))])
 
     def way_out(self, unstable: float, rise: float = 0.0) -> DelayedExitPoint | None:
-        """Return when the motion leaves the set, which lost its stability at a time; None if not while it is followed.
-
-        `rise` is added to G where a buffer point ends the delay.
-
-        Raises NotAnalyticError.
-        """
+        """Return when the motion leaves the set, `rise` added to G at a buffer point, or None; NotAnalyticError."""
         end = self._reaches(0.0, unstable)
         found = [] if end is None else [DelayedExitPoint(end, None)]
         if np.ptp(self.e, axis=0).max() > REST_CHANGE:
@@ -272,10 +267,7 @@ def _singularities(trace: RationalApproximation, det: RationalApproximation) -> 
 
 
 def _height(trace: RationalApproximation, det: RationalApproximation, time: complex) -> float | None:
-    """V up to a singular time, along the eigenvalue that falls on the way, or leads; None if it is no end for that.
-
-    At a zero of det J it is none if the other eigenvalue vanishes.
-    """
+    """V up to a singular time, along the eigenvalue that falls on the way, or leads; None if it is no end for that."""
     parts = ((np.arange(QUADRATURE_PANELS)[:, None] + GAUSS_POINTS) / QUADRATURE_PANELS).ravel()
     values, half = [], 0j
     for t in (time.real + 1j * time.imag * parts).tolist():
@@ -297,3 +289,53 @@ def _sign_changes(of: Callable[[float], Array], times: Array) -> Array:
     value = lambda t: float(of(t))
     signs = np.sign([value(t) for t in times.tolist()])
     return np.array([root_between(value, times[i], times[i + 1]) for i in np.flatnonzero(signs[1:] * signs[:-1] < 0)])
+
+
+ARRIVAL_DISTANCE = 1e-3  # from a set, in p, at which it is asked on which side a motion comes
+
+
+@dataclass(frozen=True)
+class DelayedExit:
+    """The slide past the bifurcation, cut where the motion leaves; why it goes on; and the way out."""
+
+    part: Slide
+    reason: str
+    way: DelayedExitPoint | None
+
+
+def cut_at_delayed_exit(
+    field: Field, psi: Psi, before: tuple[Sequence[Step], Sequence[Array]], part: Slide, C: str | None, how: str
+) -> DelayedExit:
+    """Cut a slide past the bifurcation where the motion leaves the set; raises NotAnalyticError."""
+    taken, places = before
+    part, way = cut_at_exit(field, psi, taken, places, part)
+    key = "Hopf, delayed"
+    if way is not None:
+        key = "Hopf, delayed until" if way.buffer is None else "Hopf, delayed until the buffer"
+    return DelayedExit(part, say(key, C=C, how=how), way)
+
+
+def exit_circle(psi: Psi, e: Array) -> Array:
+    """Points (k, 2) of the projected disc around a critical set, from which orbits show where a motion leaves it to."""
+    angle = math.tau * np.arange(ORBITS_AROUND) / ORBITS_AROUND
+    return in_disc(psi, e) + START_DISTANCE * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+
+
+def departure_point(field: Field, psi: Psi, e: Array, z: Sequence[Array], arrival: Array) -> Array | None:
+    """Return the point (1, 2) to which a motion leaves a set at rest, on the side on which it came; None if unknown."""
+    C, first, left = in_disc(psi, e), None, np.zeros(2)
+    for at in z:
+        values, vectors = np.linalg.eig(jacobian(field, psi, e, at).T)
+        if np.iscomplexobj(values):
+            return None
+        n = vectors[:, int(np.argmax(values))]
+        left = -n if n @ left < 0.0 else n
+        first = left if first is None else first
+    away = arrival - C
+    far = np.flatnonzero(np.hypot(*away.T) > ARRIVAL_DISTANCE)
+    if first is None or not len(far):
+        return None
+    values, vectors = np.linalg.eig(jacobian(field, psi, e, z[-1]))
+    right = vectors[:, int(np.argmax(values))]
+    side = math.copysign(1.0, float(first @ away[far[-1]]) * float(left @ right))
+    return (C + side * START_DISTANCE * right)[None]

@@ -41,10 +41,7 @@ class Fold:
 
 
 def classify_fold(formulas: Field, e: Array, z: Array, C: str | None, plain: str) -> Fold:
-    """Classify the fold at e.
-
-    Shapes: e (2,), z (m,).
-    """
+    """Classify the fold at e (2,) and z (m,)."""
     at = np.concatenate([e, z])
     D, Dz, W, We = _parts(formulas, at)
     across, bends = _transverse_slope(formulas, at, D, Dz)

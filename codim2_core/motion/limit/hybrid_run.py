@@ -21,22 +21,27 @@ from ...results.words import say
 from ...systems.kinds import AnySystem
 from ...systems.psi import constructors
 from ...systems.psi.function import Psi
-from ..initial_value.departure import leave
 from ..initial_value.events import EventWatch
 from ..initial_value.field import Field
 from ..initial_value.line import InvariantLine, invariant_line
 from ..locations import Ascent
 from ..result import Phase
 from ..tracked_set import in_disc
-from .delay import REST_CHANGE, NotAnalyticError
-from .delayed_exit import cut_at_delayed_exit, departure_point, exit_circle
+from .delay import REST_CHANGE, NotAnalyticError, cut_at_delayed_exit, departure_point, exit_circle
 from .fold_classification import Fold, classify_fold
 from .pending_phase import PendingDelay, PendingPhase
-from .sigma_decision import Decision, critical_name, decide_arrival, decide_border, decide_from_hemisphere, decide_start
-from .slide import Slide, slide
-from .slide_on_cycle import slide_on_cycle
-from .slip import slip
-from .stiction import hold, let_go
+from .sigma_decision import (
+    Decision,
+    critical_name,
+    decide_arrival,
+    decide_border,
+    decide_from_hemisphere,
+    decide_start,
+    hold,
+    let_go,
+)
+from .slide import Slide, slide, slide_on_cycle
+from .slip import leave, slip
 
 CLOSER_FACTOR = 1e-4  # a trajectory that turns before Sigma is followed this much closer, and asked again
 SAME_DIRECTION = 1e-12  # 1 - cos: directions that differ by a rounding of either
@@ -65,10 +70,7 @@ class HybridRun(PhaseRun[Decision]):
         return constructors.constant() if self.psi is None else self.psi
 
     def enter_branch(self, e: Array, state: Array, t: float, switch: int | None = None) -> None:
-        """Go on with the branch of the formulas ahead of a state, at e, or, where no switch is given, in another line.
-
-        Raises StopError: The branch ahead leads back at once.
-        """
+        """Enter the branch of the formulas ahead, without a switch another line; StopError if it leads back."""
         left = self.line
         if self.formulas.switches or switch is not None:
             at = e.tolist(), state.tolist()

@@ -5,26 +5,27 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...numerics.dense import dense, gather_steps
-from ...numerics.radau import Step, truncate_step
+from ...numerics.radau import truncate_step
 from ...portrait.layer_problem.critical import CriticalSet, critical_sets
 from ...results.arrays import Array
 from ...results.result import Results
 from ...systems.arguments import pair, short_repr
-from ...systems.bounds import slow_axis, slow_values
 from ...systems.elinear import ELinear
 from ...systems.kinds import takes_names
 from ...systems.psi.function import Psi
+from ...systems.reading import slow_axis, slow_values
 from ...systems.typed import System
 from ..delay import Delay, delay
 from ..initial_value.field import Field, field
 from .delay import REST_CHANGE, NotAnalyticError, cut_at_exit
 from .fold_classification import classify_fold
-from .slide import Slide, slide
+from .slide import Slide, last_fraction, slide
 
 __all__ = ["delays"]
 
@@ -104,7 +105,7 @@ def _predict_delay(formulas: Field, psi: Psi, C: CriticalSet, name: str, z: Arra
         return None
     width = np.where(np.isfinite(ranges).all(axis=1), ranges[:, 1] - ranges[:, 0], 1.0)
     long = MAX_TIME_FACTOR * float(np.min(width[rate > 0.0] / rate[rate > 0.0]))
-    options = {"rtol": RTOL, "atol": ATOL, "most": MAX_SLIDE_STEPS}
+    options: dict[str, Any] = {"rtol": RTOL, "atol": ATOL, "most": MAX_SLIDE_STEPS}
     before = _restrict_slide(slide(formulas, psi, np.array(C.e), 0.0, z, long, **options), ranges)
     if before.end not in ("hopf", "fold"):
         return None
@@ -112,17 +113,8 @@ def _predict_delay(formulas: Field, psi: Psi, C: CriticalSet, name: str, z: Arra
     how = "Hopf" if before.end == "hopf" else classify_fold(formulas, before.e, hopf.last[2:], name, "fold").exchange
     if not how or (how != "Hopf" and np.ptp(before.places, axis=0).max() > REST_CHANGE):
         return None
-    after = slide(
-        formulas,
-        psi,
-        before.e,
-        hopf.end,
-        hopf.last[2:],
-        hopf.end + long,
-        **options,
-        delayed=True,
-        resting=how != "Hopf",
-    )
+    options |= {"delayed": True, "resting": how != "Hopf"}
+    after = slide(formulas, psi, before.e, hopf.end, hopf.last[2:], hopf.end + long, **options)
     try:
         after, way = cut_at_exit(formulas, psi, before.taken, before.places, _restrict_slide(after, ranges))
     except NotAnalyticError:
@@ -138,23 +130,9 @@ def _predict_delay(formulas: Field, psi: Psi, C: CriticalSet, name: str, z: Arra
 
 def _restrict_slide(part: Slide, ranges: Array) -> Slide:
     """Cut a slide where z leaves the ranges."""
+    inside = lambda z: bool(((ranges[:, 0] <= z) & (z <= ranges[:, 1])).all())
     for k, step in enumerate(part.taken):
-        share = _leaves(step, ranges)
-        if share is not None:
-            last = truncate_step(step, share)
-            return replace(
-                part, taken=[*part.taken[:k], last], end="range", e=part.places[k], places=part.places[: k + 2]
-            )
+        if not inside(step.at(1.0)[2:]):
+            taken = [*part.taken[:k], truncate_step(step, last_fraction(inside, step, 50))]
+            return replace(part, taken=taken, end="range", e=part.places[k], places=part.places[: k + 2])
     return part
-
-
-def _leaves(step: Step, ranges: Array) -> float | None:
-    """Fraction of a step at which z leaves the ranges; None if it does not by its end."""
-    inside = lambda u: bool(((ranges[:, 0] <= step.at(u)[2:]) & (step.at(u)[2:] <= ranges[:, 1])).all())
-    if inside(1.0):
-        return None
-    low, high = 0.0, 1.0
-    for _ in range(50):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if inside(middle) else (low, middle)
-    return low

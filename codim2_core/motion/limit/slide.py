@@ -1,6 +1,11 @@
 """Sliding in the limit eps -> 0: the slow flow on a critical set that is followed in z, and where that ends.
 
 On ``U((c, s), 0, 0, z) = 0``, ``z' = W((c, s), 0, 0, z)``, (4.17). The set is continued as a `SlowManifold`.
+
+Sliding on a limit cycle of the layer problem: z' is the mean of W over the cycle.
+
+In the e-linear system that is the slow flow on the critical set inside (Proposition 4.2), see `slide`. Here it is
+read off the cycle itself, found anew at every z that the method asks for.
 """
 
 from __future__ import annotations
@@ -14,8 +19,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ...numerics.radau import STAGES, Step, StepsTooShortError, TooManyStepsError, truncate_step
-from ...numerics.root_between import root_between
+from ...numerics.sign_changes import root_between
+from ...portrait.cycles.limit_cycles import LimitCycle, limit_cycles
 from ...results.arrays import Array
+from ...systems.kinds import AnySystem
 from ...systems.psi.function import Psi
 from ..initial_value.events import DEGREES, monotone_fractions
 from ..initial_value.field import Field
@@ -24,9 +31,16 @@ from ..initial_value.kernels.motion import FIRST_STEP_SHARE
 from ..initial_value.kernels.rate import ROUNDING
 from ..initial_value.line import InvariantLine
 from ..initial_value.motion_steps import MotionSteps
-from ..initial_value.safe_steps import FOLD_MARGIN, SAFE_NODES, StepRequirements, dissipation
 from ..initial_value.slow_manifold import SlowManifold, complement, determinant, trace
-from ..initial_value.slow_steps import SLOW_STEPS_PER_CALL, SlowSteps, steps_of_z
+from ..initial_value.slow_steps import (
+    FOLD_MARGIN,
+    SAFE_NODES,
+    SLOW_STEPS_PER_CALL,
+    SlowSteps,
+    StepRequirements,
+    dissipation,
+    steps_of_z,
+)
 
 MIN_STEP = 1e-14  # of the time in which z changes by its own size: steps that short mean that the set ends here
 EQUATOR_GAP = 1e-5  # 1 - |e|^2 at which an end is taken for the equator
@@ -82,10 +96,7 @@ def slide(
     reach: float = 1.0,
     max_step: float = math.inf,
 ) -> Slide:
-    """Follow the slow flow until the critical set reaches the equator, folds, or changes stability.
-
-    Shapes: e (2,), z (m,).
-    """
+    """Follow the slow flow from e (2,), z (m,), until the critical set reaches the equator, folds or turns unstable."""
     if not len(z):
         return Slide([Step(t, t_end - t, np.zeros(2), np.zeros(2), np.zeros((2, STAGES)))], "time", e, [e, e])
     manifold = SlowManifold(field, e, z)
@@ -133,7 +144,7 @@ def slide(
             if not is_safe and gauges["fold"](after, step.last[2:]) < FOLD_MARGIN:
                 found.append((1.0, "fold"))  # where the slow flow vanishes at the fold, it never gets past it
             if not alive(step.last[2:]):
-                found.append((_last_alive(alive, step), "cycle"))
+                found.append((last_fraction(alive, step, 20), "cycle"))
             if found:
                 u, name = min(found)
                 taken.append(truncate_step(step, u))
@@ -205,10 +216,7 @@ def _end_fractions(
 
 
 def _lost(manifold: SlowManifold, step: Step, before: Array, after: Array) -> tuple[float, SlowManifold] | None:
-    """Return up to which fraction of a step the set is there that it begins on, and that; None if to its end.
-
-    At the end there may be another: it is the same where each leads to the other by its slope, or all parts do so.
-    """
+    """Return up to which fraction of a step the set is there that it begins on, and that; None if to its end."""
     last, first = (SlowManifold(manifold.field, e, at[2:]) for e, at in ((after, step.last), (before, step.first)))
     u, there = _track_slow_manifold(first, step, 1.0, SHORTEST_PART, last)
     return None if there is last else (u, there)
@@ -217,10 +225,7 @@ def _lost(manifold: SlowManifold, step: Step, before: Array, after: Array) -> tu
 def _track_slow_manifold(
     here: SlowManifold, step: Step, to: float, least: float, last: SlowManifold | None = None
 ) -> tuple[float, SlowManifold]:
-    """Follow a set to a fraction of a step, in parts not below the least one, or as far as it is there.
-
-    A long step may move it farther than one search looks. The last set is searched for unless it is given.
-    """
+    """Follow a set to a fraction of a step, in parts not below the least one, or as far as it is there."""
     u, part = 0.0, to
     while part > least:
         at = min(u + part, to)
@@ -307,9 +312,84 @@ def _first_negative(
     return 0.0 if start <= 0.0 and end < 0.0 else None  # began on the border itself, and stays outside
 
 
-def _last_alive(alive: Callable[[Array], bool], step: Step) -> float:
+def last_fraction(holds: Callable[[Array], bool], step: Step, halvings: int) -> float:
+    """Return the last fraction of a step, to so many halvings, at which something holds of z."""
     low, high = 0.0, 1.0
-    for _ in range(20):
+    for _ in range(halvings):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if alive(step.at(middle)[2:]) else (low, middle)
+        low, high = (middle, high) if holds(step.at(middle)[2:]) else (low, middle)
     return low
+
+
+CYCLE_RTOL, CYCLE_ATOL = 1e-6, 1e-8  # no better than the cycles themselves are known
+CYCLE_DIFFERENCE_STEP = 1e-4
+#: Of the time in which z changes by its own size: the first step; steps so short that the cycle ends.
+FIRST_CYCLE_STEP, MIN_CYCLE_STEP = 0.05, 1e-6
+OTHER_CYCLE_DISTANCE = 0.2  # in the disc: a cycle whose middle has moved further is another
+
+
+def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, t_end: float, most: int) -> Slide:
+    """Follow the averaged slow flow of a general system from z (m,)."""
+    means: list[tuple[Array, Array]] = []
+    m, first = len(z), limit_cycles(system, psi, tuple(z.tolist()))[index]
+    middle = _centroid(first)
+
+    def near(at: Array) -> LimitCycle | None:
+        """Return the stable cycle at another z that is nearest to the last one, if it may be the same."""
+        stable = [cycle for cycle in limit_cycles(system, psi, tuple(at.tolist())) if cycle.stable]
+        cycle = min(stable, key=lambda cycle: math.dist(_centroid(cycle), middle), default=None)
+        return None if cycle is None or math.dist(_centroid(cycle), middle) > OTHER_CYCLE_DISTANCE else cycle
+
+    def rate(at: Array) -> Array:
+        cycle = near(at) if np.isfinite(at).all() else None
+        return np.full(m, math.nan) if cycle is None else np.array(cycle.slow_flow)
+
+    def note(at: Array) -> None:
+        nonlocal middle
+        cycle = near(at)
+        if cycle is not None:
+            middle = _centroid(cycle)
+            means.append(_means(system, psi, at, cycle))
+
+    def slopes(at: Array) -> Array:
+        note(at)  # once where a step begins
+        here, columns = rate(at), []
+        for i, h in enumerate(CYCLE_DIFFERENCE_STEP * (1.0 + np.abs(at))):
+            columns.append((rate(at + h * (np.arange(m) == i)) - here) / h)
+        return np.nan_to_num(np.stack(columns, axis=-1))
+
+    floor = CYCLE_ATOL / CYCLE_RTOL
+    pace = min(t_end - t, own_time(z, np.array(first.slow_flow), floor))
+    motion = steps_of_z(
+        rate, slopes, (t, t_end), z, CYCLE_RTOL, floor, most,
+        h=FIRST_CYCLE_STEP * pace, least=MIN_CYCLE_STEP * pace, implicit=True,
+    )  # fmt: skip
+    taken, end = list[Step](), "time"
+    try:
+        for part in motion.chunks(most):
+            taken += part
+        note(motion.y[2:])
+    except TooManyStepsError:
+        end = "cycle"
+    e, p = ([own[k] for own in means] for k in range(2))
+    return Slide(taken, end, e[-1] if e else np.array(middle), e, motion.evaluations, p=p)
+
+
+def _centroid(cycle: LimitCycle) -> tuple[float, float]:
+    x, y = cycle.points.mean(axis=0).tolist()
+    return x, y
+
+
+def _means(system: AnySystem, psi: Psi, z: Array, cycle: LimitCycle) -> tuple[Array, Array]:
+    """Means of e and of p over a cycle in the time of kappa_2, by the trapezoidal rule over its points."""
+    p = cycle.points
+    r2 = (p * p).sum(axis=1)
+    height = np.sqrt(np.maximum(1.0 - r2, 1e-300))
+    x2 = p / height[:, None]
+    zeta = np.hypot(*x2.T)
+    e = x2 * (psi.modulus(zeta) / np.maximum(zeta, 1e-300))[:, None]
+    speed = np.hypot(*system.at(tuple(z.tolist())).U(e).T)
+    distance = np.hypot(*(np.roll(x2, -1, axis=0) - x2).T)
+    time = distance / np.maximum(speed + np.roll(speed, -1), 1e-300)  # in a unit of its own, as weights are its parts
+    weight = 0.5 * (time + np.roll(time, 1)) / time.sum()
+    return weight @ e, weight @ p

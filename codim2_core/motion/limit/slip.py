@@ -13,16 +13,44 @@ from functools import partial
 
 import numpy as np
 
-from ...numerics.radau import Step, TooManyStepsError
+from ...numerics.radau import STAGES, Step, TooManyStepsError
 from ...results.arrays import Array
+from ...results.words import say
 from ...systems.psi.constructors import constant
-from ..initial_value.departure import polynomial_of
 from ..initial_value.field import Field
 from ..initial_value.functions import functions_of
 from ..initial_value.inspection import Inspection
+from ..initial_value.kernels import slow
 from ..initial_value.kernels.motion import AT_SIGMA
+from ..initial_value.kernels.slow import SET_PLACE, SLOPES, SLOW_EXTENT, VALUE
 from ..initial_value.line import InvariantLine
 from ..initial_value.motion_steps import MotionSteps, rate_at
+
+
+def polynomial_of(*terms: Array) -> Array:
+    """Return a step's polynomial from its terms, from the linear one on."""
+    polynomial = np.zeros((len(terms[0]), STAGES))
+    for k, term in enumerate(terms):
+        polynomial[:, k] = term
+    return polynomial
+
+
+def leave(
+    field: Field, theta: float, t: float, z: Array, t_end: float, line: InvariantLine | None = None
+) -> Step | str:
+    """Return the first, short step away from Sigma along a limit direction, or why there is none, as a sentence."""
+    functions, m = functions_of(field, constant()), len(z)
+    S, linear, square = np.zeros(SLOW_EXTENT), np.zeros(2 + m), np.zeros(2 + m)
+    functions.enter(S)
+    S[VALUE : SLOPES + 1], S[SET_PLACE + 4 : SET_PLACE + 4 + m] = functions.addresses[:2].view(float), z
+    n1, n2 = (0.0, 0.0) if line is None else line.vector
+    h = float(slow.leave(S, m, n1, n2, theta, t_end - t, linear, square))
+    if not h > 0.0:
+        key = "repels angularly" if h == slow.REPELS_ANGULARLY else "nothing leaves"
+        return say(key, theta=theta)
+    first = np.concatenate([np.zeros(2), z])
+    return Step(t, h, first, first + linear + square, polynomial_of(linear, square))
+
 
 #: Of rtol, for the steps of a slip: explicit ones use up what is allowed, implicit ones leave most of it.
 OF_SLIPS = 0.5
@@ -53,10 +81,7 @@ def slip(
     largest: float,
     max_step: float,
 ) -> Slip:
-    """Follow the nonsmooth system until it arrives at Sigma, or to the end of the time span.
-
-    Shapes: state (2 + m,).
-    """
+    """Follow the nonsmooth system from a state (2 + m,) until it arrives at Sigma, or to the end of the time span."""
     rate, functions = partial(rate_at, field, None, 0.0, line), functions_of(field, constant())
     farthest = max(largest, math.hypot(state[0], state[1]))
     rtol, floor = OF_SLIPS * rtol, atol / rtol

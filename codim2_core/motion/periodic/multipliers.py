@@ -72,10 +72,7 @@ def multipliers(
     formulas: Field, psi: Psi | None, run: Simulation, variation: Variation, clocks: NDArray[np.bool_],
     cuts: Sequence[int] = (0,),
 ) -> tuple[Complex, Array, int]:  # fmt: skip
-    """Return the multipliers of a periodic motion, largest first, their condition, and how many are exactly 0.
-
-    conditions: By how much, to first order, an error of the matrix is larger in each of them. Shapes: clocks (m,).
-    """
+    """Return the multipliers, largest first, their conditions (relative errors to first order), and how many are 0."""
     n = run.states.shape[1]
     steps = variation.propagators[:, :n, :n]
     i, plane = start_of(run, variation)

@@ -27,8 +27,7 @@ from ...systems.psi.function import Psi
 from ..argument_checks import MAX_STEPS
 from ..result import Simulation
 from .response_piece import MotionFamily, Piece, at_value, jump_corner, measure_piece, response_row
-from .response_points import KINDS_OF_CHANGE, ResponsePoint, ResponseRow, change_point
-from .response_result import ResponseCurve
+from .result import KINDS_OF_CHANGE, ResponseCurve, ResponsePoint, ResponseRow, change_point
 from .search import periodic_motion, shooting
 
 __all__ = ["response_curve"]
@@ -240,10 +239,7 @@ def _parameter_turns(piece: Piece, one: Array, other: Array) -> bool:
 
 
 def _phase_border(piece: Piece, one: tuple[Array, ResponseRow], other: tuple[Array, ResponseRow]) -> ResponseRow:
-    """Bisect for where the phases of a motion change between two, as far as it can be followed there.
-
-    The curve has a corner there, and slopes of it may not be known: so it is bisected in the parameter.
-    """
+    """Bisect for where the phases of a motion change between two, as far as it can be followed there."""
     (low, before), (high, after) = one, other
     while abs(float(high[-1] - low[-1])) > PLACE_SHARE:
         middle = 0.5 * (low + high)

@@ -9,14 +9,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...numerics.curves.newton import newton
+from ...numerics.curves.arclength import newton
 from ...portrait.layer_problem.vary import vary
 from ...results.arrays import Array
 from ...systems.psi.constructors import constant
 from ..initial_value.field import field
 from ..result import Simulation
 from .multipliers import multipliers, rate_at
-from .response_points import ResponseRow
+from .result import ResponseRow
 from .shooting import LostError, Shooting, Shot
 
 SAMPLES = 8  # places within a step, between which extremes are looked for
@@ -24,10 +24,7 @@ NEWTON_ROUNDS = 3  # of the place of an extreme within a step: its error is the 
 
 
 def swing(run: Simulation) -> Array:
-    """Return half of the difference of the extremes of x, y, z1, ..., zm over a motion, (2 + m,).
-
-    The extreme among samples is refined by Newton's method for the derivative of the step's polynomial.
-    """
+    """Return half of the difference of the extremes of x, y, z1, ..., zm over a motion, (2 + m,)."""
     motion = run.motion
     u = np.arange(1, SAMPLES + 1) / SAMPLES
     d = motion.polynomials.shape[2]

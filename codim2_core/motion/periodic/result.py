@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
+from itertools import combinations
+from typing import Any
+
+import numpy as np
 
 from ...results.arrays import Array, Complex
-from ...results.result import Pictured
+from ...results.result import Pictured, Tabled, column_rows, result_rows
 from ...results.tables import html_table, paragraphs, table_number
+from ...results.words import say
 from ..result import Simulation
 
 
@@ -95,3 +101,165 @@ class PeriodicMotion(Pictured):
         ]
         head = ("multiplier", "imaginary part", "modulus", "error")
         return html_table(head, rows) + paragraphs([self.reason])
+
+
+REAL = 1e-6  # imaginary part of a multiplier on the unit circle, up to which a pair is a pair of real ones
+
+
+@dataclass(frozen=True, eq=False)
+class ResponseRow:
+    """One motion of a curve."""
+
+    value: float
+    period: float
+    state: Array  # (2 + m,) Its start
+    swings: Array  # (2 + m,) Half of what lies between the extremes
+    multipliers: Complex  # (q,)
+    phases: tuple[str, ...]  # kinds of its phases, in order
+    onward: float  # by how much the parameter goes on from the motion before it
+
+
+@dataclass(frozen=True, eq=False)
+class ResponsePoint(Tabled):
+    """A special point of a response curve.
+
+    Attributes
+    ----------
+    kind : str
+        "fold", "branch point", "period doubling", "Neimark-Sacker", or "phases change": a stick or a passage of Sigma
+        begins or ends.
+    value, period : float
+    sentence : str
+    """
+
+    _head_ = ("at", "value", "period", "what happens")
+
+    kind: str
+    value: float
+    period: float
+    sentence: str
+
+    def _row_(self) -> tuple[str, ...]:
+        return self.kind, table_number(self.value), table_number(self.period), self.sentence
+
+
+def _product_of_pairs(values: Complex) -> float:
+    return float(np.prod([1.0 - one * other for one, other in combinations(values.tolist(), 2)]).real)
+
+
+#: What goes through zero there, of the multipliers without the trivial one.
+KINDS_OF_CHANGE: Mapping[str, Callable[[Complex], float]] = {
+    "fold": lambda values: float(np.prod(values - 1.0).real),
+    "period doubling": lambda values: float(np.prod(values + 1.0).real),
+    "Neimark-Sacker": _product_of_pairs,
+}
+
+
+def change_point(
+    along: str, kind: str, row: ResponseRow, before: ResponseRow, after: ResponseRow, turns: bool = False
+) -> ResponsePoint | None:
+    """Return the point at a zero of a test function between two motions, if it is one; `turns`: the parameter does."""
+    told = {"name": along, "value": row.value}
+    if kind == "fold":
+        kind, sentence = (
+            ("fold", say("response folds", **told)) if turns else ("branch point", say("branches off", **told))
+        )
+    elif kind == "period doubling":
+        sentence = say("doubles", **told)
+    elif kind == "Neimark-Sacker":
+        nearest = min(row.multipliers.tolist(), key=lambda one: abs(abs(one) - 1.0))
+        if abs(nearest.imag) < REAL:  # a pair of real ones whose product is 1
+            return None
+        sentence = say("becomes a torus", **told)
+    else:
+        of = "slide" if after.phases.count("slide") != before.phases.count("slide") else "cross"
+        below, above = sorted((before, after), key=lambda row: row.value)
+        counts = {"below": below.phases.count(of), "above": above.phases.count(of)}
+        sentence = say("sticks change" if of == "slide" else "passages change", **told, **counts)
+    return ResponsePoint(kind, row.value, row.period, sentence)
+
+
+@dataclass(frozen=True, eq=False)
+class ResponseCurve(Pictured):
+    """Periodic motions along one parameter, in order along their curve; arrays are read-only.
+
+    Attributes
+    ----------
+    along : str
+    span : (float, float)
+    values, period : ndarray (k,)
+        Of the parameter.
+    state0 : ndarray (k, 2 + m)
+        Their starts.
+    amplitude : ndarray (k, m)
+        Half of max - min of z1, ..., zm over a period.
+    velocity_amplitude : ndarray (k, 2)
+        The same of x and y.
+    multipliers : ndarray (k, q) of complex
+        As `PeriodicMotion.multipliers`.
+    stable : ndarray (k,) of bool
+        Whether all of them are inside the unit circle.
+    phases : tuple of str
+        Of each the kinds of its phases, such as "slip, slide".
+    special : tuple of ResponsePoint
+        In order along the curve.
+    ends : (str, str)
+        Of either end "span", "grows" (to a hundred times its first size), "lost" (it was followed no further), "many"
+        (points were too many), or "closed".
+    """
+
+    along: str
+    span: tuple[float, float]
+    values: Array = field(repr=False)
+    period: Array = field(repr=False)
+    state0: Array = field(repr=False)
+    amplitude: Array = field(repr=False)
+    velocity_amplitude: Array = field(repr=False)
+    multipliers: Complex = field(repr=False)
+    stable: Array = field(repr=False)
+    phases: tuple[str, ...] = field(repr=False)
+    special: tuple[ResponsePoint, ...]
+    ends: tuple[str, str]
+
+    @classmethod
+    def of(
+        cls, along: str, span: tuple[float, float], rows: Sequence[ResponseRow],
+        special: Sequence[ResponsePoint], ends: tuple[str, str],
+    ) -> ResponseCurve:  # fmt: skip
+        """Gather the motions of a curve."""
+        most = max(len(row.multipliers) for row in rows)
+        values = np.full((len(rows), most), np.nan, complex)
+        for i, row in enumerate(rows):
+            values[i, : len(row.multipliers)] = row.multipliers
+        swings = np.array([row.swings for row in rows])
+        arrays = (
+            np.array([row.value for row in rows]), np.array([row.period for row in rows]),
+            np.array([row.state for row in rows]), swings[:, 2:].copy(), swings[:, :2].copy(), values,
+            np.array([bool((np.abs(row.multipliers) < 1.0).all()) for row in rows]),
+        )  # fmt: skip
+        for array in arrays:
+            array.flags.writeable = False
+        return cls(along, span, *arrays, tuple(", ".join(row.phases) for row in rows), tuple(special), ends)
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def crossings(self, value: float) -> int:
+        """Return how many of its motions have a value of the parameter: how often the curve passes it."""
+        side = self.values - value
+        return int(np.count_nonzero(side[1:] * side[:-1] < 0.0) + np.count_nonzero(side == 0.0))
+
+    def _records(self) -> Iterator[dict[str, Any]]:
+        names = ["x", "y", *(f"z{i}" for i in range(1, self.state0.shape[1] - 1))]
+        columns: dict[str, Any] = {self.along: self.values, "period": self.period, "stable": self.stable}
+        swings = (*self.velocity_amplitude.T, *self.amplitude.T)
+        columns |= {f"amplitude_{name}": row for name, row in zip(names, swings, strict=True)}
+        columns |= {f"start_{name}": row for name, row in zip(names, self.state0.T, strict=True)}
+        columns["largest_multiplier"] = np.nanmax(np.abs(self.multipliers), axis=1, initial=0.0)
+        return column_rows(columns | {"phases": self.phases})
+
+    def _tables_(self) -> str:
+        told = say(
+            "response", name=self.along, low=float(self.values.min()), high=float(self.values.max()), count=len(self)
+        )
+        return result_rows(self.special) + paragraphs([told])

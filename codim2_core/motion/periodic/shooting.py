@@ -77,10 +77,7 @@ class Shooting:
         return np.concatenate([[True, True], ~self.clocks])
 
     def follow(self, starts: Array, period: float, rtol: float) -> tuple[Simulation, tuple[int, ...], Array]:
-        """Follow a motion over a period: from the starts of its segments (k, 2 + m), the clocks of the first.
-
-        cuts: Step ends at which segments begin, and the last; ends: Of the segments.
-        """
+        """Follow a motion over a period from the starts of its segments (k, 2 + m): its run, cuts and ends."""
         options = {"rtol": rtol, "atol": rtol * self.floor, "max_steps": self.max_steps, "max_step": self.max_step}
         if self.eps == 0.0 or len(starts) == 1:
             span = (0.0, period)
@@ -92,10 +89,7 @@ class Shooting:
         return simulate_segments(self.system, self.psi, starts, times, eps=self.eps, **options)
 
     def shot(self, starts: Array, period: float, rtol: float) -> Shot:
-        """Follow a motion over a period, and differentiate it.
-
-        Raises LostError: It ends before, or has no derivative.
-        """
+        """Follow a motion over a period, and differentiate it; LostError where it ends before or has no derivative."""
         run, cuts, ends = self.follow(np.atleast_2d(starts), period, rtol)
         if run.status is not SimulationStatus.T_END:
             raise LostError(PeriodicStatus.MOTION_ENDS, f"{say('motion ends early')} {run.reason}", run)
@@ -166,11 +160,7 @@ class Shot:
         return float(np.abs(self.miss / sizes).max())
 
     def slopes(self, free: NDArray[np.bool_], sizes: Array) -> tuple[Array, Array, Array]:
-        """Return the derivatives of what is missed of `free`, in units of their sizes.
-
-        by_starts: By the starts, in those units; segments: By all of a segment's start, and by `names`, in their own
-        units.
-        """
+        """Return the derivatives of what is missed of `free`: by the starts, by the period, and of segments by all."""
         k, n, q = len(self.ends), len(self.state), int(free.sum())
         steps, count = self.variation.propagators, self.variation.propagators.shape[1]
         segments = np.array([
@@ -217,10 +207,7 @@ def _sizes(run: Simulation, of: Shooting) -> Array:
 
 
 def _least_solution(matrix: Array, right: Array) -> Array:
-    """Least solution of linear equations; exactly 0 in what is not coupled to any equation whose right side is not 0.
-
-    So a start in an invariant line stays in it.
-    """
+    """Least solution of linear equations, exactly 0 in what couples to none whose right side is not 0."""
     linked = (matrix != 0.0) | (matrix != 0.0).T
     moved = right != 0.0
     for _ in right:

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
-from .catalogue import catalogue
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from .oscillators import OSCILLATING
 from .record import Comparison, ExactValue, ReferenceMotion
+from .rolling import ROLLING, SPINNING
+from .sliding import SLIDING
 
 __all__ = ["Comparison", "ExactValue", "ReferenceMotion", "catalogue"]
 
@@ -11,3 +16,7 @@ __all__ = ["Comparison", "ExactValue", "ReferenceMotion", "catalogue"]
 def __dir__() -> list[str]:
     """Return the public names, for the Tab key."""
     return list(__all__)
+
+
+_MOTIONS = (*SLIDING, *ROLLING, *SPINNING, *OSCILLATING)
+catalogue: Mapping[str, ReferenceMotion] = MappingProxyType({motion.key: motion for motion in _MOTIONS})

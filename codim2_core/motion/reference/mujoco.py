@@ -32,12 +32,7 @@ MODEL = """
 
 
 def follow_in_mujoco(motion: ReferenceMotion) -> Comparison:
-    """Return MuJoCo's values of a reference motion next to the exact ones.
-
-    It is asked with elliptic cones, impratio 100 and steps of a millisecond, and is else as it comes.
-
-    Raises ValueError: MuJoCo is not installed, or the motion is none of `FOLLOWED`.
-    """
+    """Return MuJoCo's values, with elliptic cones and steps of a millisecond, next to the exact ones; or ValueError."""
     if motion.key not in FOLLOWED:
         raise ValueError(f"{motion.key} has no model in MuJoCo here; choose one of {', '.join(FOLLOWED)}.")
     return motion.compare(FOLLOWED[motion.key], "MuJoCo")

@@ -49,18 +49,7 @@ def closed_form(name: str, unit: str, value: float, formula: str) -> ExactValue:
 
 @dataclass(frozen=True, eq=False)
 class Measured(Tabled):
-    """A value of a solver next to what it should be.
-
-    Attributes
-    ----------
-    name, unit : str
-    exact, error : float
-        The value, and a bound on its error.
-    found : float
-        What the solver has found; NaN where it has found none.
-    difference : float
-        ``found - exact``.
-    """
+    """A value of a solver next to what it should be; NaN where it has found none."""
 
     _head_ = ("value", "unit", "exact", "found", "difference")
 

@@ -22,13 +22,18 @@ from ...numerics.dense import Dense
 from ...results.arrays import Array
 from ...results.words import say
 from ...systems.kinds import AnySystem
-from ...systems.psi.direction import outside
-from ...systems.psi.function import Psi
+from ...systems.psi.function import Psi, outside
+from ..initial_value.field import Slopes, slopes_of
 from ..initial_value.line import InvariantLine
-from ..initial_value.slopes import Slopes, slopes_of
-from .chain import chain_propagators, past_jumps
-from .passage import shrinks_across
-from .propagators import Propagators, pad_jacobians, propagators, states_along
+from .propagators import (
+    Propagators,
+    chain_propagators,
+    pad_jacobians,
+    past_jumps,
+    propagators,
+    shrinks_across,
+    states_along,
+)
 from .result import Variation
 
 StepIndices = NDArray[np.intp]
@@ -196,12 +201,7 @@ class _Course:
         return Propagators(fine, coarse), ""
 
     def arrival_step(self, leg: _Leg) -> int:
-        """Step of a leg to Sigma at whose beginning its arrival is known best: straight on from there.
-
-        Both the rest of the way and how far the direction still turns should be small; where all directions are alike
-        nothing damps the rounding of (x, y), and close to Sigma it is the direction. Where it has just left Sigma both
-        are small too: it is looked for from where it is furthest away.
-        """
+        """Step of a leg to Sigma at whose beginning its arrival, straight on from there, is known best."""
         e, _ = outside(self.motion.states[leg.first : leg.last, :2])
         rho = np.hypot(*self.motion.states[leg.first : leg.last, :2].T)
         turns = np.append(np.abs(np.diff(e, axis=0)).max(axis=1), 0.0)
@@ -355,20 +355,14 @@ class _Course:
         return found
 
     def departure(self, leg: _Leg) -> Array:
-        """Matrix from a change of the state where it leaves Sigma to that of z where and when it leaves.
-
-        That of when follows from that of (x, y).
-        """
+        """Matrix from a change of the state where it leaves Sigma to that of z where and when it leaves."""
         start = np.eye(self.size)
         start[:2, :2] = 0.0
         start[2 : 2 + self.slopes.m] += np.outer(self.initial_rate(leg)[2:], self.later(leg))
         return start
 
     def later(self, leg: _Leg) -> Array:
-        """Return the change of the time of leaving by a change of the state; where a slide ended, (x, y) has none.
-
-        Undefined where it begins with no speed.
-        """
+        """Return the change of the time of leaving by a change of the state; where a slide ended, (x, y) has none."""
         found, onward = np.zeros(self.size), self.initial_rate(leg)[:2]
         if not leg.left:
             found[:2] = -onward / (onward @ onward) if onward.any() else math.nan

@@ -2,19 +2,41 @@
 
 A step of the motion is as long as the motion is smooth, and its variation may be less so: next to a straight slip
 others turn. So each part of a step is solved whole and in halves, and halved again where the two differ.
+
+Neighbours of a motion in an invariant line, where it comes to Sigma along a limit direction that repels angularly.
+
+It is on the stable manifold of a half-saddle, ``rho' = -r rho``, ``theta' = t theta`` with r, t > 0. One at
+a small angle d next to it turns away at ``rho ~ d^(r/t)``, goes along the equator to the next limit direction, on
+either side, and is late, and elsewhere in z, by as much: with r > t no derivative is left of that.
+
+The motion in the line *passes* if it leaves along the limit direction that is next on both sides, ``rho' = R rho``,
+``theta' = -T theta``. Then what was d is ``d^(r T/(t R))`` once rho is what it was: with r T > t R it is forgotten
+too, and (x, y) tells only when it passes, as where all directions attract. For dry friction S in a line, against a
+force f > S, r = f + S, t = T = f and R = f - S. If it *slides* on a critical set to which what comes along the next
+directions goes as well, the angle is lost on Sigma.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...formulas.switches import jump_names
 from ...numerics.dense import Dense
 from ...numerics.radau import tableau
+from ...portrait.approach_outcomes import outcome_towards
+from ...portrait.layer_problem.problem import LayerProblem
 from ...results.arrays import Array
+from ...results.words import say
+from ...systems.kinds import AnySystem
+from ...systems.psi.constructors import constant
+from ...systems.psi.function import Psi, smoothed_direction
+from ..initial_value.field import Slopes, slopes_of
+from .result import Variation
 
 Jacobian = Callable[[NDArray[np.intp], Array], Array]
 
@@ -129,3 +151,100 @@ def pad_jacobians(slopes: Array, shape: tuple[int, ...]) -> Array:
     found = np.zeros((count, N, N))
     found[:, :n] = slopes
     return found.reshape(*shape, N, N)
+
+
+def past_jumps(
+    fine: Array, coarse: Array, times: Array, jumps: Mapping[float, bool], slopes: Slopes
+) -> tuple[Array, Array, str]:
+    """Pass the jumps of a load: what time alone decides changes nothing but what comes from a change of the clock.
+
+    fine, coarse: The steps that are known; changes of a clock end at a jump, as columns of zeros; reason: Why no more
+    are. Shapes: fine, coarse (k, N, N), times (k + 1,).
+    """
+    names = {name for name, _ in slopes.kept}
+    for t, by_time in jumps.items():
+        step = int(np.searchsorted(times[:-1], t, side="left"))
+        if step >= len(fine):
+            continue
+        if not by_time or not names.isdisjoint(jump_names(slopes.rows)):
+            return fine[:step], coarse[:step], say("variation at a jump", t=t)
+        for i, row in enumerate(slopes.rows[2:]):
+            if row.constant is not None:
+                fine[step, :, 2 + i] = coarse[step, :, 2 + i] = 0.0
+    return fine, coarse, ""
+
+
+def chain_propagators(
+    names: tuple[str, ...],
+    times: Array,
+    fine: Array,
+    coarse: Array,
+    rate: Array,
+    reason: str = "",
+    within: Array | None = None,
+) -> Variation:
+    """Make the result of the steps' propagators (k, N, N) at times (k + 1,), up to the first that is undefined."""
+    undefined = np.flatnonzero(~np.isfinite(fine).all(axis=(1, 2)))
+    if len(undefined):
+        first = int(undefined[0])
+        fine, coarse, times = fine[:first], coarse[:first], times[: first + 1]
+        reason, rate = say("variation undefined", t=float(times[-1])), np.full(len(rate), np.nan)
+    one, two = np.eye(fine.shape[1]), np.eye(fine.shape[1])
+    with np.errstate(over="ignore", invalid="ignore"):
+        for step, longer in zip(fine, coarse, strict=True):
+            two, one = step @ two, longer @ one
+        error = np.abs(two - one)[: len(rate)]
+    times, steps = times.copy(), fine.copy()
+    for array in (times, steps, error, rate, *([] if within is None else [within])):
+        array.flags.writeable = False
+    return Variation(names, times, steps, error, rate, reason, within)
+
+
+RTOL = 1e-10  # how far a part of a step and its halves may differ
+
+
+def of_regularised(
+    system: AnySystem, psi: Psi, eps: float, motion: Dense, jumps: Mapping[float, bool], names: Sequence[str]
+) -> Variation:
+    """Differentiate a motion by its start, and by numbers of its system."""
+    slopes, states = slopes_of(system, names), motion.states
+
+    def jacobian(steps: NDArray[np.intp], u: Array) -> Array:
+        at = states_along(motion, steps, u)
+        return pad_jacobians(slopes.of_state(*smoothed_direction(psi, eps, at[:, :2]), at), u.shape)
+
+    rho = np.hypot(np.hypot(*states[:, :2].T), eps)
+    sizes = np.ones((len(states), states.shape[1] + len(names)))
+    sizes[:, :2] = rho[:, None]
+    found = propagators(jacobian, motion.lengths, sizes, RTOL, np.diag(sizes[0]))
+    rate = slopes.rates(smoothed_direction(psi, eps, states[-1:, :2])[0], states[-1:])[0]
+    fine, coarse, reason = past_jumps(found.fine, found.coarse, motion.times, jumps, slopes)
+    return chain_propagators(tuple(names), motion.times[: len(fine) + 1], fine, coarse, rate, reason)
+
+
+MARGIN = 1e-6  # relative, by which the rates must differ
+ANGLE_MARGIN = 1e-6  # rad
+
+
+def shrinks_across(
+    system: AnySystem, psi: Psi | None, z: tuple[float, ...], arriving: float, leaving: float | None
+) -> bool:
+    """Whether nothing is left, to first order, of a small angle next to a motion once it has been on Sigma."""
+    problem = LayerProblem(system.at(z), constant() if psi is None else psi)
+    equator = problem.equator
+    if not len(equator) or len(equator.arcs) or (equator.multiplicity != 1).any():
+        return False
+    gaps = [abs(math.remainder(theta - arriving, math.tau)) for theta in equator.theta.tolist()]
+    i = min(range(len(gaps)), key=gaps.__getitem__)
+    r, t = -float(equator.lambda_rho[i]), float(equator.lambda_theta[i])
+    if gaps[i] > ANGLE_MARGIN or not (t > 0.0 and r > (1.0 + MARGIN) * t):
+        return False
+    neighbours = {(i + 1) % len(gaps), (i - 1) % len(gaps)}
+    if leaving is not None:
+        (k,) = neighbours if len(neighbours) == 1 else (i,)
+        R, T = float(equator.lambda_rho[k]), -float(equator.lambda_theta[k])
+        same = abs(math.remainder(float(equator.theta[k]) - leaving, math.tau)) < ANGLE_MARGIN
+        return same and R > 0.0 and T > 0.0 and r * T > (1.0 + MARGIN) * t * R
+    compare = None if psi is None else ()
+    ways = [outcome_towards(problem, float(equator.theta[k]), compare) for k in neighbours]
+    return all(way.verdict == "slide" and not way.depends_on_psi for way in ways) and len({w.onto for w in ways}) == 1

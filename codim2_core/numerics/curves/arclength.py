@@ -11,8 +11,59 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..root_between import root_between
-from .newton import MAX_CORRECTION_RATIO, MAX_ROUNDS, NEWTON_TOLERANCE, ROUNDING_TOLERANCE, Array, Condition, newton
+from ...results.arrays import Array
+from ..sign_changes import root_between
+
+Condition = Callable[[Array], tuple[Array, Array]]  # values (k,) and their derivatives (k, n)
+
+MAX_ROUNDS = 12
+NEWTON_TOLERANCE = 1e-12  # correction at which it stops,
+ROUNDING_TOLERANCE = 1e-9  # or, where rounding does not let it come so far, at which a point counts as found
+MAX_SIZE = 1e3
+#: Rounds after which corrections that do not fall faster than this tell of no regular zero.
+FREE_ROUNDS, MAX_CORRECTION_RATIO = 3, 0.4
+
+
+def newton(
+    condition: Condition, start: Array, reach: float = math.inf, close: float = NEWTON_TOLERANCE
+) -> Array | None:
+    """Find a common zero near a start (n,) of at most n functions, by least changes; None if none is within reach."""
+    v, size = start, math.inf
+    for rounds in range(MAX_ROUNDS):
+        value, slope = condition(v)
+        if not (np.isfinite(value).all() and np.isfinite(slope).all()):
+            return None
+        try:
+            if len(slope) == len(v):
+                change = np.linalg.solve(slope, -value)
+            else:
+                change = slope.T @ np.linalg.solve(slope @ slope.T, -value)
+        except np.linalg.LinAlgError:
+            return None
+        last, size = size, math.sqrt(change @ change)
+        v = v + change
+        if not size < MAX_SIZE or math.dist(v, start) > reach:
+            return None
+        if size < close:
+            return v
+        if rounds > FREE_ROUNDS and size > MAX_CORRECTION_RATIO * last:
+            break
+    return v if size < ROUNDING_TOLERANCE else None
+
+
+def feet(points: Array, line: Array) -> tuple[Array, Array, Array]:
+    """Find the nearest place to points (..., n) on each piece of a polyline (m, n): its part, place, distance."""
+    start, along = line[:-1], np.diff(line, axis=0)
+    away = points[..., None, :] - start
+    parts = np.clip((away * along).sum(axis=-1) / np.maximum((along**2).sum(axis=1), 1e-300), 0.0, 1.0)
+    shares = parts[..., None] * along
+    return parts, start + shares, np.sqrt(((away - shares) ** 2).sum(axis=-1))
+
+
+def distance(points: Array, line: Array) -> Array:
+    """Return the distances of points (..., n) from a polyline (m, n)."""
+    return feet(points, line)[2].min(axis=-1)
+
 
 MIN_STEP, FIRST_STEP_SHARE = 1e-6, 0.2  # shortest step, and the first as a part of the longest
 STEP_GROWTH, STEP_SHRINKAGE = 1.5, 0.4
@@ -86,10 +137,7 @@ def tangent(condition: Condition, at: Array) -> Array | None:
 def zero_between(
     condition: Condition, test: Callable[[Array], float], one: Array, other: Array, part: float = PLACE_TOLERANCE
 ) -> Array:
-    """Find the point of a curve between two neighbours at which a function changes its sign.
-
-    Shapes: one, other (n,).
-    """
+    """Find the point of a curve between neighbours (n,) at which a function changes its sign."""
     chord = other - one
     normal = chord / max(math.sqrt(chord @ chord), 1e-300)
     found = [one]
@@ -105,10 +153,7 @@ def zero_between(
 
 
 def trace_curve(condition: Condition, start: Array, edges: Sequence[CurveEdge], steps: StepBounds) -> TracedLine | None:
-    """Follow a curve both ways from a point on it; None where that is no regular point.
-
-    Shapes: start (n,).
-    """
+    """Follow a curve both ways from a point (n,) on it; None where that is no regular point."""
     along = tangent(condition, start)
     if along is None:
         return None

@@ -8,12 +8,7 @@ from ...results.arrays import Array
 
 
 def assign(cost: Array) -> list[int]:
-    """Return the column of each row, all different, for which the sum of the costs is least.
-
-    Shortest augmenting paths, a row after the other (Jonker and Volgenant 1987); O(n^3).
-
-    Shapes: cost (n, m).
-    """
+    """Assign each row of a cost (n, m) its column at the least sum, by augmenting paths (Jonker and Volgenant 1987)."""
     n, m = cost.shape
     costs, of_row, of_column = cost.tolist(), [0.0] * (n + 1), [0.0] * (m + 1)
     row_of = [n] * (m + 1)  # of a column; column m stands for the row that seeks one

@@ -16,8 +16,8 @@ import math
 
 import numpy as np
 
-from ...numerics.curves.polyline import distance
-from ...numerics.root_between import root_through
+from ...numerics.curves.arclength import distance
+from ...numerics.sign_changes import root_through
 from ...results.words import say
 from ..layer_problem.problem import LayerProblem
 from .displacement_sampling import NEAR_FOLD, NEAR_LOOP, UNRESOLVED, Samples, near_fold, zeros
@@ -44,10 +44,7 @@ ONLY_SADDLES = say("only saddles")
 
 
 def search_cycles(problem: LayerProblem) -> tuple[list[tuple[FixedPoint, Orbit, int]], str, tuple[str, ...]]:
-    """Search for limit cycles.
-
-    cycles: sense is +1 anticlockwise, -1 clockwise; reason: Why there is none, or how those there are were found.
-    """
+    """Search for limit cycles; sense is +1 anticlockwise, -1 clockwise; `reason` says how they were found."""
     critical = problem.critical
     if not critical:
         return [], NO_CRITICAL_SET, ()
@@ -162,10 +159,7 @@ def _one_way(y: Array) -> bool:
 
 
 def _interpolate_fixed_point(section: TurnSection, samples: Samples, i: int, j: int, backward: bool) -> float | None:
-    """Find the fixed point between two samples by six others about the zero of the cubic through those around.
-
-    None if these do not show it: they do if their interpolant and that of the inner four agree.
-    """
+    """Find the fixed point between two samples by six others about the zero of the cubic through those around."""
     near = slice(max(i - 1, 0), j + 2)
     x, y = samples.xi[near], samples.shift[near]
     if not _one_way(y):

@@ -51,11 +51,7 @@ def differences(q: Array, shift: Array) -> Array:
 
 
 def cubics(q: Array, shift: Array) -> tuple[Array, Array]:
-    """Approximate one run of samples between its samples.
-
-    values: Of the cubic of each interval, at even places from its one end to the other; error: How far the
-    displacement may be from it, by the fourth divided differences of the samples about it. Shapes: q, shift (n,).
-    """
+    """Approximate one run of samples between its samples."""
     n = len(q)
     first = np.clip(np.arange(n - 1) - 1, 0, n - 4)  # of the four samples
     x = q[:-1, None] + np.diff(q)[:, None] * _INSIDE
@@ -74,10 +70,7 @@ def cubics(q: Array, shift: Array) -> tuple[Array, Array]:
 
 
 def unresolved_intervals(q: Array, shift: Array, noise: Array) -> list[int]:
-    """Find the intervals i, between samples i and i + 1, on which zeros may be hidden.
-
-    Shapes: q (n,), shift (n,), noise (n,).
-    """
+    """Find the intervals i, between samples i and i + 1 of n, on which zeros may be hidden."""
     out: list[int] = []
     finite = np.isfinite(shift)
     edges = np.flatnonzero(np.diff(np.concatenate([[False], finite, [False]]).astype(np.int8)))
@@ -113,12 +106,7 @@ def _doubtful(values: Array, doubt: Array) -> NDArray[np.bool_]:
 
 
 def zeros(q: Array, shift: Array, noise: Array) -> tuple[list[tuple[int, int]], list[tuple[int, int]], bool]:
-    """Return where the displacement changes sign, and where it touches zero, within resolution.
-
-    changes: Samples of opposite sign, with none between that differs from zero; touching: Samples of the same sign
-    between which some are, and none differs from zero: a fold; band: Whether a whole interval does not differ from
-    zero: a band of closed orbits. Shapes: q, shift, noise (n,).
-    """
+    """Return where the displacement changes sign, where it touches zero, and whether a band of it is zero."""
     decided = np.flatnonzero(np.abs(shift) > noise)
     inward = shift[decided] < 0.0
     changes, touching, band = [], [], False
@@ -219,11 +207,7 @@ def _least_extremum(q: Array, shift: Array, noise: Array) -> float:
 
 
 def near_fold(q: Array, shift: Array, noise: Array) -> float:
-    """Return the smallest size of the displacement at one of its extrema, to within its noise; inf if it has none.
-
-    Extrema of three neighbouring samples by their parabola, or of each k-th one where neighbours differ by noise; where
-    several in a row are zero within noise, and those next to them have one sign, the largest of the row.
-    """
+    """Return the smallest size of the displacement at one of its extrema, to within its noise; inf if it has none."""
     finite = np.concatenate([[False], np.isfinite(shift), [False]]).astype(np.int8)
     ends = np.flatnonzero(np.diff(finite)).tolist()
     runs = [slice(*run, k) for run in zip(ends[::2], ends[1::2], strict=True) for k in STRIDES]

@@ -15,9 +15,7 @@ from ...results.arrays import Array
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.problem import LayerProblem
 from ..orbits.departures import departures
-from .heteroclinic_arcs import HeteroclinicArc
-from .ray import Ray
-from .ray_section import MAX_STEPS, HemispherePoint, TurnSection
+from .ray_section import MAX_STEPS, HemispherePoint, HeteroclinicArc, Ray, TurnSection
 
 RTOL = 1e-12
 LOOP_STEPS = 8 * MAX_STEPS  # orbits past two half-saddles take longer than a turn

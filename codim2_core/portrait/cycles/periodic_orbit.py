@@ -64,10 +64,7 @@ class TurnQuadrature:
 
 
 def path(section: TurnSection, start: Array, rtol: float, backward: bool) -> TurnQuadrature | None:
-    """Follow one return from a state (3,) of the section; None if MOST_STEPS steps do not bring it round.
-
-    Shapes: start (3,).
-    """
+    """Follow one return from a state (3,) of the section; None if MOST_STEPS steps do not bring it round."""
     from .ray_section_kernel import RETURNED, single_step
 
     ends, times, codes, steps = section.turn(start[None, :], rtol, backward, MOST_STEPS, MOST_STEPS)
@@ -113,10 +110,7 @@ def _normal_growth(J: Array, h: Array, across: Array) -> float:
 
 
 def orbit(section: TurnSection, crossing: FixedPoint) -> Orbit | None:
-    """Follow the cycle through a fixed point of the return map once round.
-
-    None if MOST_STEPS steps do not bring it round.
-    """
+    """Follow the cycle through a fixed point of the return map once round; None where MOST_STEPS do not suffice."""
     start, _ = section.states(np.array([crossing.xi]))
     backward = crossing.repelling  # so that errors fade
     sign = -1.0 if backward else 1.0

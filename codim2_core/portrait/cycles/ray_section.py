@@ -1,19 +1,157 @@
-"""The ray from a critical set to the equator, and the first turn of orbits from it."""
+"""The ray from a critical set to the equator, and the first turn of orbits from it.
+
+Arcs of the equator along which a heteroclinic cycle through the equator may go.
+
+Such a loop goes along the equator from a half-saddle P to the next one, Q (Theorem 3.1(b)), and back to P over the
+hemisphere:
+
+    P:  lambda_rho > 0, lambda_theta > 0 (orbits come down to it);    Q:  lambda_rho < 0, lambda_theta < 0.
+
+The arc is always there; the orbit from Q to P is a connection of codimension one, see `heteroclinic_cycle`.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...results.arrays import Array
+from ...systems.frozen import FrozenSystem
 from ..layer_problem.critical import CriticalSet
+from ..layer_problem.equator import equilibria_at
+from ..layer_problem.location import Location
 from ..layer_problem.problem import LayerProblem
-from .equator_pull import EQUATOR_CAPTURE_HEIGHT, MIN_HEIGHT, UNDERFLOW_HEIGHT, EquatorPull, equator_pull
-from .heteroclinic_arcs import heteroclinic_arcs
+
+
+@dataclass(frozen=True)
+class HeteroclinicArc:
+    """The arc of the equator of a possible loop."""
+
+    source: float  # angles of P and Q
+    sink: float
+    sense: int  # +1 if Q follows P anticlockwise, else -1: the sense in which the loop turns
+    # product of both saddles' ratios of the eigenvalue entered by to that left by: above 1 the loop attracts
+    ratio: float
+
+    def distance(self, other: HeteroclinicArc) -> float:
+        """Return how far the ends of two arcs are apart."""
+        gaps = (self.sink - other.sink, self.source - other.source)
+        return sum(abs(math.remainder(gap, math.tau)) for gap in gaps)
+
+    def spans(self, theta: Array) -> NDArray[np.bool_]:
+        """Whether angles (k,) lie on it."""
+        width = (self.sense * (self.sink - self.source)) % math.tau
+        return (self.sense * (theta - self.source)) % math.tau < width
+
+
+def heteroclinic_arcs(problem: LayerProblem) -> tuple[HeteroclinicArc, ...]:
+    """Return the arcs from a half-saddle that orbits enter to the next one that they leave."""
+    equator = problem.equator
+    if (equator.multiplicity > 1).any():
+        return ()
+    angles, rho, theta = equator.theta.tolist(), equator.lambda_rho.tolist(), equator.lambda_theta.tolist()
+    found = []
+    for j in range(len(angles)):
+        for sense in (1, -1):
+            i = (j + sense) % len(angles)
+            if rho[j] > 0.0 < theta[j] and rho[i] < 0.0 > theta[i]:
+                ratio = rho[j] / theta[j] * theta[i] / rho[i]
+                found.append(HeteroclinicArc(angles[j], angles[i], sense, ratio))
+    return tuple(found)
+
+
+#: Fractions of the first ebar. Below the first an orbit is so close that the equator decides what becomes of it: it is
+#: gone, or it comes back however near it passes (cycles of ordinary systems do at ebar = exp(-33)), down to the second.
+EQUATOR_CAPTURE_HEIGHT, UNDERFLOW_HEIGHT = 1e-9, 1e-250
+MIN_HEIGHT = 1e-290  # ebar: its reciprocal, |x2|, is finite
+
+
+ON_THE_WAY = np.linspace(0.0, 1.0, 17)  # where lambda_rho is looked at between a direction and the next equilibrium
+
+
+@dataclass(frozen=True)
+class EquatorPull:
+    """The first-order return map just above the equator.
+
+    There theta turns as on the equator, and ``ebar' = -lambda_rho ebar`` (3.26): an orbit comes to the next
+    equilibrium on its way, which draws it in where lambda_rho > 0; but first ebar grows where lambda_rho < 0. A closed
+    equator draws none in within a turn, however strong.
+    """
+
+    theta: Array  # (k,) Equilibria on the equator, increasing
+    # (ndarray, ndarray) Which of them attract from the hemisphere, or may: forward, and backward in time
+    draws: tuple[NDArray[np.bool_], NDArray[np.bool_]]
+    everywhere: bool  # each direction is an equilibrium, or an arc of them
+
+    def may_return(self, states: Array, field: Callable[[Array], Array], backward: bool) -> NDArray[np.bool_]:
+        """Say which orbits of states (n, 3) do not, or may not, come down to the equator for good."""
+        draws, sign = self.draws[backward], -1.0 if backward else 1.0
+        if self.everywhere or not draws.any():
+            return np.full(len(states), not self.everywhere)
+        theta = np.arctan2(states[:, 1], states[:, 0]) % math.tau
+        U = sign * field(states[:, :2])
+        onward = states[:, 0] * U[:, 1] > states[:, 1] * U[:, 0]
+        ahead = np.searchsorted(self.theta, theta)
+        end = np.where(onward, ahead, ahead - 1) % len(draws)
+        way = np.where(onward, (self.theta[end] - theta) % math.tau, -((theta - self.theta[end]) % math.tau))
+        passed = theta[:, None] + way[:, None] * ON_THE_WAY
+        e = np.stack([np.cos(passed), np.sin(passed)], axis=-1)
+        radial = sign * (e * field(e.reshape(-1, 2)).reshape(e.shape)).sum(axis=-1)
+        return ~draws[end] | (radial < 0.0).any(axis=1)
+
+
+def equator_pull(at: FrozenSystem, location: Location | None) -> EquatorPull:
+    """Return the pull of the equator of a frozen system; `location` as in `equilibria_at`."""
+    equator = equilibria_at(at, location)
+    radial, turning = equator.lambda_rho, equator.lambda_theta
+    draws = (radial >= 0.0) & (turning <= 0.0), (radial <= 0.0) & (turning >= 0.0)
+    return EquatorPull(equator.theta, draws, equator.all_directions or len(equator.arcs) > 0)
+
+
+#: Ebar, and distance from the foot, below which a crossing is the worse the nearer it is to an end of the ray.
+FREE_HEIGHT, FREE_DISTANCE = 0.05, 1e-4
+CROSSING_SLACK = 0.05  # of a turn: what lies so shortly before a crossing is judged by its angle alone
+
+
+def best_crossing(points: Array, foot: HemispherePoint) -> tuple[float, int]:
+    """Find where a cycle crosses a ray from a point best: how well, and at which of its points.
+
+    An orbit from there turns by 2 pi about the point just when it is back, and not sooner, if no earlier point of the
+    cycle is as far round. It crosses well if that is so by far, if it crosses at a large angle, far from both ends.
+
+    quality: Negative if the cycle does not go round the point once. Shapes: points (m, 2).
+    """
+    quality = crossing_qualities(points, foot)
+    best = int(quality.argmax())
+    return float(quality[best]), best
+
+
+def crossing_qualities(points: Array, foot: HemispherePoint) -> Array:
+    """Return how well (m - 1,) a cycle (m, 2) crosses the ray from a point through each of its points."""
+    away = points - foot.p
+    angle = np.unwrap(np.arctan2(away[:, 1], away[:, 0]))
+    turned = angle[-1] - angle[0]
+    if abs(abs(turned) - 2.0 * math.pi) > 0.1:
+        return np.full(len(points) - 1, -1.0)
+    sense, count = math.copysign(1.0, turned), len(points) - 1
+    angle = sense * angle[:-1]
+    along = np.roll(points[:-1], -1, axis=0) - np.roll(points[:-1], 1, axis=0)
+    sine = sense * (away[:-1, 0] * along[:, 1] - away[:-1, 1] * along[:, 0])
+    sine = sine / np.maximum(np.hypot(*away[:-1].T) * np.hypot(*along.T), 1e-300)
+    twice = np.concatenate([angle - 2.0 * math.pi, angle])  # the turn before, and this one
+    highest = np.maximum.accumulate(twice)
+    recent = max(1, int(CROSSING_SLACK * count))
+    lead = angle - highest[count - recent : 2 * count - recent]
+    height = np.sqrt(np.maximum(1.0 - (points[:-1] ** 2).sum(axis=1), 0.0))
+    free = np.minimum(np.minimum(height / FREE_HEIGHT, np.hypot(*away[:-1].T) / FREE_DISTANCE), 1.0)
+    return np.where(angle >= highest[count:], np.minimum(sine, lead) * free, -1.0)
+
 
 COARSE_RTOL, FINE_RTOL = 1e-9, 1e-13  # tolerances
 #: Of the reach; ebar of the last sample; of samples in ln(r/(reach - r)).
@@ -190,3 +328,12 @@ class TurnSection:
         last = math.log(self.reach * (self.reach + self.other)) - 2.0 * math.log(OUTER_HEIGHT)
         first = math.log(INNER_RADIUS)
         return np.linspace(first, last, int((last - first) / SAMPLE_SPACING))
+
+
+class Ray(TurnSection):
+    """The ray from a point in a given direction, with the map of first turns on it."""
+
+    def __init__(self, problem: LayerProblem, foot: HemispherePoint, u: Array) -> None:
+        self.problem, self.at, self.psi, self.critical, self.u = problem, problem.at, problem.psi, foot, u
+        self.rate = problem.at.speed
+        self.reach, self.other = room(foot, u)

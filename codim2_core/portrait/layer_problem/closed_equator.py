@@ -8,8 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...numerics.line_pair import line_pair
-from ...numerics.trigonometric import tangential_zeros
+from ...numerics.trigonometric import line_pair, tangential_zeros
 from ...numerics.trigonometric_exact import to_integers
 from ...results.result import Result
 from ...results.tables import html_table, paragraphs, table_number
@@ -171,10 +170,7 @@ def _fourier_of_reciprocal(b: float, f2: float, f1: float, a: float, d: float, d
 
 
 def _factor(b: float, f2: float, f1: float, s2: float, amplitude: float) -> tuple[float, complex, complex]:
-    """Refine K, z1 + z2 and z1 z2: where z1 and z2 nearly coincide these keep the digits that each of them loses.
-
-    |Theta| = K |1 - conj(z1 + z2) e + conj(z1 z2) e^2|^2 fixes them harmonic by harmonic: one equation for K.
-    """
+    """Refine K, z1 + z2 and z1 z2, harmonic by harmonic: they keep the digits that nearly equal z1 and z2 lose."""
     sign = math.copysign(1.0, b)
     first, second = sign * complex(f2, -f1), sign * complex(0.0, s2)
 
@@ -205,10 +201,7 @@ def _integrals(K: float, total: complex, product: complex) -> tuple[float, float
 def _polish_circle_zero(
     coefficients: tuple[float, float, float, float, float], start: complex
 ) -> tuple[complex, float]:
-    """Newton's method in 256-bit fixed point for a zero inside the circle; also 1 - |z|^2, to all digits.
-
-    Close to a saddle-node it and its mirror image outside nearly meet, and doubles cannot tell them apart.
-    """
+    """Newton's method in 256-bit fixed point for a zero inside the circle; also 1 - |z|^2, to all digits."""
     bits = 256
     (m, c1, s1, half_a, half_d), _ = to_integers(coefficients)
     s2 = half_d - half_a

@@ -14,11 +14,11 @@ from numpy.typing import ArrayLike, NDArray
 from ...formulas.arrays import ONE_SIDED_DIRECTIONS, ONE_SIDED_DISTANCE, program
 from ...results.result import Results, Tabled
 from ...results.tables import html_table, point, table_number
-from ...systems.bounds import at_place
 from ...systems.coefficients import Affine
 from ...systems.frozen import FrozenSystem
 from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.function import Psi
+from ...systems.reading import at_place
 from .disc_zeros import FLAT, disc_zeros
 from .linearisation import (
     Frame,
@@ -150,10 +150,7 @@ def _linear_set(at: FrozenSystem, psi: Psi, affine: Affine, location: Location, 
 
 
 def slow_flow_at(at: FrozenSystem, e: ArrayLike) -> NDArray[np.float64]:
-    """Return W at points of the disc, of shape (..., m).
-
-    Raises ValueError: W is not finite there: what slides has no velocity.
-    """
+    """Return W at points of the disc, (..., m); ValueError where it is not finite: what slides has no velocity."""
     flow = np.asarray(at.W(e), np.float64)
     finite = np.isfinite(flow)
     if finite.all():

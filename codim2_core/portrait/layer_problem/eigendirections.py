@@ -56,10 +56,7 @@ class Linearised:
 
 
 def of_critical_set(C: CriticalSet) -> Linearised:
-    """Return the eigendirections of a critical set, in the disc.
-
-    By falling eigenvalue. Of a set whose kind is "degenerate" none: the linearisation does not decide there.
-    """
+    """Return the eigendirections of a critical set by falling eigenvalue; none where it is degenerate."""
     if C.kind == "degenerate":
         return Linearised(())
     (j11, j12), (j21, j22) = C.jacobian.tolist()

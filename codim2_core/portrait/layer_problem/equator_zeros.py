@@ -263,10 +263,7 @@ def _kinks(key: Hashable) -> NDArray[np.float64]:
 
 
 def _zeros_by_piece(key: Hashable, kind: str, size: float) -> tuple[Array, NDArray[np.int64], Array]:
-    """Zeros of a component that is not smooth, multiplicities (2 where it only touches), and arcs (k, 2) of zeros.
-
-    Between its kinks it is analytic: it vanishes on all of a piece, or in single points.
-    """
+    """Zeros of a component that is not smooth, multiplicities (2 where it only touches), and arcs (k, 2) of zeros."""
     run, edges = program(key), _kinks(key)
 
     def value(theta: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -311,11 +308,7 @@ def _lies_on_arcs(theta: Array, arcs: Array) -> NDArray[np.bool_]:
 
 @lru_cache(maxsize=128)
 def equator_as_orbit(key: Hashable) -> tuple[int, float, float, bool] | None:
-    """Direction, period, exponent and neutrality of the equator as a closed orbit; None where Theta has a zero.
-
-    The integrals of 1/|Theta| and lambda_rho/|Theta| over a turn are means over equally spaced angles, which converge
-    faster than any power for a smooth U.
-    """
+    """Direction, period, exponent and neutrality of the equator as a closed orbit; None where Theta has a zero."""
     on = equator_zeros(key)
     if on.all_directions or len(on.theta) or len(on.arcs):
         return None

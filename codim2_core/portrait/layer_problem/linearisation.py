@@ -106,11 +106,7 @@ def linearisation(
 
 
 def spectrum(frame: Frame, blur: float = 0.0) -> tuple[float, float, float, str, tuple[complex, complex]]:
-    """Trace, determinant, discriminant, kind and eigenvalues of a Jacobian.
-
-    The trace counts as zero, and the kind as "centre (linear)", when it is below the rounding of its terms, or below
-    `blur`, to which the terms themselves are known.
-    """
+    """Trace, determinant, discriminant, kind and eigenvalues of a Jacobian; a trace within rounding or `blur` is 0."""
     trace = frame.along + frame.across
     half, difference = 0.5 * trace, 0.5 * (frame.along - frame.across)
     quarter = difference * difference + frame.turning  # discriminant / 4, without the cancellation in tr^2 - 4 det

@@ -17,10 +17,7 @@ TERM_ROUNDING = 2.0**-44  # of the terms that the coefficient is the sum of
 
 
 def psi_derivatives(psi: Psi, s: Array) -> tuple[Array, Array, Array]:
-    """First three derivatives of Psi.
-
-    As its family has them, or by differentiating its formula. Shapes: s (m,).
-    """
+    """First three derivatives of Psi at s (m,), as its family has them, or of its formula."""
     if psi.record.derivatives is not None:
         return psi.record.derivatives(s, psi.parameter)
     expression = parse(psi.text, ("s",)) if psi.expression is None else psi.expression

@@ -62,30 +62,7 @@ def find_critical(problem: LayerProblem) -> tuple[CriticalSet, ...]:
 
 
 class LayerProblem:
-    """The layer problem (3.26) of a system frozen at z, under Psi.
-
-    What a module above this one finds in it (`found_once`) is kept here too: whoever is given the problem finds nothing
-    twice.
-
-    Parameters
-    ----------
-    at : FrozenSystem
-    psi : Psi
-    cut : float
-        Angle from which limit directions are counted: Q1 is the first at or after it.
-
-    Attributes
-    ----------
-    found : dict
-        What has been found in it, by the function that found it.
-
-    Examples
-    --------
-    >>> from codim2_core import ELinear, psi
-    >>> problem = LayerProblem(ELinear(-2, 0, -1, (-0.5, 0)).at(), psi.constant())
-    >>> len(problem.equator), problem.equator_cycle, problem.critical[0].kind
-    (4, None, 'stable node')
-    """
+    """The layer problem (3.26) of a frozen system under Psi, with what was found in it; Q1 is the first from `cut`."""
 
     def __init__(self, at: FrozenSystem, psi: Psi, cut: float = 0.0) -> None:
         self.at, self.psi, self.cut = at, psi, cut

@@ -9,19 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...systems.bounds import MAX_NUMBER
 from ...systems.psi.constructors import with_parameter
 from ...systems.psi.function import Psi
+from ...systems.reading import MAX_NUMBER
 
 __all__ = ["check_name", "check_varying", "limits", "names", "usual_span", "value_of", "vary"]
 
 
 def names(system: Any, psi: Psi, z: ArrayLike = ()) -> tuple[str, ...]:
-    """Names of all that can be varied.
-
-    Of an e-linear system those of a, b, d, f1, f2 that are numbers and not text; then the system's parameters, z1 to
-    zm, and that of Psi, such as n of the Hill family (unless one of the system has that name). Shapes: z (m,).
-    """
+    """Names of all that can be varied: numbers of the system, its parameters, z1 to zm, and that of Psi."""
     found = [*system.variable]
     if not system.frozen:  # else z is chosen
         found += [f"z{i + 1}" for i in range(len(_slow_values(z)))]
@@ -31,11 +27,7 @@ def names(system: Any, psi: Psi, z: ArrayLike = ()) -> tuple[str, ...]:
 
 
 def vary(system: Any, psi: Psi, z: ArrayLike, name: str, value: float) -> tuple[Any, Psi, tuple[float, ...]]:
-    """Return system, Psi and z with the one thing called `name` set to `value`.
-
-    Of the given types; what does not change is passed on as it is. Raises ValueError: Nothing variable has this name,
-    or the value is not allowed there. Shapes: z (m,).
-    """
+    """Return system, Psi and z with the thing called `name` set to a value; ValueError where that may not be."""
     slow = _slow_values(z)
     if name in system.variable:
         return system.varied(name, _finite_number(name, value)), psi, slow
@@ -47,10 +39,7 @@ def vary(system: Any, psi: Psi, z: ArrayLike, name: str, value: float) -> tuple[
 
 
 def value_of(system: Any, psi: Psi, z: ArrayLike, name: str) -> float:
-    """Present value of the thing called `name`.
-
-    Raises ValueError: Nothing variable has this name.
-    """
+    """Present value of the thing called `name`; ValueError where nothing variable has this name."""
     if name in system.variable:
         return system.value_of(name)
     slow = _slow_values(z)
@@ -98,13 +87,7 @@ def check_varying(
 
 
 def usual_span(system: Any, psi: Psi, z: ArrayLike, name: str) -> tuple[float, float]:
-    """Return the span over which something is looked at that was given none: about its present value.
-
-    For the parameter of Psi from a third to three times the value, as far as it may go; for a parameter of the system
-    half as far on both sides as it is large, so that it keeps its sign; for a coefficient as far as the largest of
-    them is large; for a slow variable as far as it is large, and at least 1. Raises ValueError: Nothing variable has
-    this name.
-    """
+    """Return the span over which something is looked at that was given none: about its present value."""
     value, (low, high) = value_of(system, psi, z, name), limits(system, psi, name)
     if name not in system.variable and _of_psi(psi, name):
         return max(low, value / 3.0), min(high, 3.0 * value)

@@ -61,10 +61,7 @@ class Crossing:
 def crossings(
     run: Program, kind: int, outside: bool, reach: float, nodes: Array, parts: Array, size: float
 ) -> list[Crossing]:
-    """All crossings of one component.
-
-    Shapes: nodes (n, m, 2), parts (3, n, m).
-    """
+    """All crossings of one component: nodes (n, m, 2), parts (3, n, m)."""
     from .trace_nullcline import flat_cells, stationary  # on first use: it loads the compiler
 
     width = float(np.abs(nodes[1:, 1:] - nodes[:-1, :-1]).max())
@@ -376,10 +373,7 @@ class _Tracer:
             self.net.close_along(branch)
 
     def _trace_curve(self, start: Array, origin: tuple[int, int] | None = None) -> tuple[Array, bool]:
-        """Follow a curve, straight on through crossings; points with tangents (n, 4), and whether it closed.
-
-        origin : the crossing and its half-branch at which it starts.
-        """
+        """Follow a curve from a half-branch of a crossing: points with tangents (n, 4), and whether it closed."""
         from .trace_nullcline import BORDER, CLOSED_CURVE, CROSSING, trace_nullcline
 
         pieces: list[Array] = []

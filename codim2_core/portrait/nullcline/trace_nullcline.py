@@ -65,10 +65,7 @@ def _component(op, left, right, number, roots, kind, outside, X, Y, seed, work, 
 
 @kernel
 def sample(op, left, right, number, roots, outside, points):
-    """All four components with their derivatives at points (k, 2); returns (4, 3, k).
-
-    Those of the inside that lie well beyond the disc are left out, as NaN.
-    """
+    """All four components with their derivatives at points (k, 2), (4, 3, k); NaN well beyond the disc."""
     seed, work, rows = np.zeros((4, 3)), np.empty((len(op), 3)), np.empty((2, 3))
     out = np.empty((4, 3, len(points)))
     for i in range(len(points)):
@@ -135,10 +132,7 @@ def stationary(op, left, right, number, roots, kind, outside, X, Y, reach):
 
 @kernel
 def _newton_along_gradient(op, left, right, number, roots, kind, outside, X, Y, reach, floor, seed, work, rows):
-    """Newton's method along the gradient; (ok, X, Y, gradient), not ok farther than `reach` away.
-
-    floor : size of the gradient below which a point is taken as a crossing of branches and left where it is.
-    """
+    """Newton's method along the gradient, within `reach`; a point of a gradient below `floor` stays where it is."""
     X0, Y0 = X, Y
     gx, gy = 0.0, 0.0
     for _ in range(10):
@@ -218,11 +212,7 @@ def _home_ahead(home, X, Y, tx, ty, h):
 
 @kernel
 def trace_nullcline(op, left, right, number, roots, kind, outside, start, home, crossings, largest, size, out):
-    """Follow a curve from a point on it.
-
-    which: Index of the crossing, at whose circle the last point lies. Shapes: start, home (4,), crossings (k, 3), out
-    (n, 4).
-    """
+    """Follow a curve from a point on it."""
     seed, work, rows = np.zeros((4, 3)), np.empty((len(op), 3)), np.empty((2, 3))
     floor = 1e-9 * size
     most = largest if outside else 1.0

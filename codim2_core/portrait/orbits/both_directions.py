@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -10,8 +11,38 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...results.arrays import Array
-from ...results.equality import ByValue
+from ...results.result import ByValue
+from ...systems.frozen import FrozenSystem
+from ..layer_problem.critical import CriticalSet
+from ..layer_problem.equator import EquatorEquilibria
 from .result import Status, Trajectories
+
+MIN_DURATION = 40.0  # over the size of U: what is drawn in any case
+MAX_DURATION = 1e9  # and at most: rates 1e-8 of the largest are 0 to differences (`stepping.events`)
+ARRIVAL = 10.0  # over the slowest rate: e^-10 of the way is left, a hundredth of a pixel
+STIFF = 60.0  # ratio of the rates at one equilibrium from which an explicit method is bound to the fast one for long
+
+
+def is_stiff(equator: EquatorEquilibria, critical: tuple[CriticalSet, ...] = ()) -> bool:
+    """Whether trajectories creep along a slow direction, at any equilibrium: another is `STIFF` times as fast."""
+    rho, theta = abs(equator.lambda_rho), abs(equator.lambda_theta)
+    if (np.maximum(rho, theta) > STIFF * np.minimum(rho, theta)).any():
+        return True
+    rates = [abs(C.eigenvalues.real) for C in critical if C.discriminant >= 0.0]
+    return any(one.max() > STIFF * one.min() for one in rates)
+
+
+def drawn_duration(at: FrozenSystem, equator: EquatorEquilibria, critical: tuple[CriticalSet, ...] = ()) -> float:
+    """Longest time T of each half of a drawn trajectory."""
+    size = at.size or 1.0
+    rates = np.minimum(abs(equator.lambda_rho), abs(equator.lambda_theta)).tolist()
+    for C in critical:
+        if C.kind != "saddle":
+            # J is in the time of kappa_2, and dT = ebar dtau
+            height = 1.0 / math.hypot(1.0, float(C.x2[0]), float(C.x2[1]))
+            rates.append(float(abs(C.eigenvalues.real).min()) / height)
+    needed = ARRIVAL / min([rate for rate in rates if rate > 0.0], default=math.inf)
+    return min(max(MIN_DURATION / size, needed), MAX_DURATION / size)
 
 
 @dataclass(frozen=True, eq=False)

@@ -49,11 +49,7 @@ def departures(at: FrozenSystem, psi: Psi, theta: ArrayLike, rtol: float, backwa
 def departures_under(
     at: FrozenSystem, psis: Sequence[Psi], theta: ArrayLike, rtol: float, backward: bool
 ) -> list[NDArray[np.float64]]:
-    """First states of the orbits that leave limit directions, under each Psi.
-
-    (p_x, p_y, ebar). Raises ValueError: A direction is not finite, is no limit direction, or its lambda_rho has the
-    wrong sign. Shapes: theta (k,).
-    """
+    """First states (p_x, p_y, ebar) of the orbits that leave limit directions (k,), under each Psi."""
     try:
         angle = np.array(theta, float).reshape(-1)
     except (TypeError, ValueError) as error:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...results.arrays import Array
-from ...results.equality import ByValue
+from ...results.result import ByValue
 from ...systems.kinds import AnySystem, FrozenSystem
 from ...systems.psi.function import Psi
 from ..layer_problem.hemisphere import disc_from_scaling, e_psi, outside_flow, scaling_from_disc
@@ -20,10 +20,7 @@ LEAST_RADIUS = 1e-6  # of the picture: nearer to its middle a motion followed to
 
 
 def angle_along(points: Array, least: float) -> Array:
-    """Return the angle of each point of a curve, which changes by less than pi from one to the next.
-
-    Shapes: points (k, 2).
-    """
+    """Return the angle of each point (k, 2) of a curve, which changes by less than pi from one to the next."""
     known = np.flatnonzero(np.hypot(points[:, 0], points[:, 1]) >= least)
     if not len(known):
         return np.zeros(len(points))
@@ -63,12 +60,7 @@ class InTime(ByValue):
 
 
 def in_time(system: AnySystem, psi: Psi, seed: ArrayLike, span: tuple[float, float], z: ArrayLike = ()) -> InTime:
-    """Follow one orbit both ways over its own time; z is frozen.
-
-    A half on the hemisphere ends 10 eps from Sigma at the latest, or three times as far as the seed; any half after
-    400 steps. Raises ValueError: The seed is no point of the picture, or lies on the equator, where no time t passes;
-    or 0 is not in the span. Shapes: seed (2,), z (m,).
-    """
+    """Follow one orbit both ways from a seed (2,) over its own time, z (m,) frozen; ValueError on the equator."""
     start = checked_seeds(np.reshape(np.asarray(seed, float), (-1, 2)))[0]
     first, last = map(float, span)
     if not (math.isfinite(first) and math.isfinite(last) and first <= 0.0 <= last):

@@ -21,9 +21,8 @@ from ...systems.frozen import FrozenSystem
 from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.function import Psi
 from .departures import departures
-from .options import DEFAULT_MAX_STEPS, PIXEL, Stepping, stepping
 from .result import STATUSES, Status, Trajectories, append_continuations, concatenate, cut_up
-from .seeds import checked_seeds
+from .seeds import DEFAULT_MAX_STEPS, PIXEL, Stepping, checked_seeds, stepping
 
 __all__ = ["Status", "Trajectories", "concatenate", "continuation", "is_warm", "trajectories", "warm"]
 
@@ -47,14 +46,13 @@ _warm: set[str] = set()
 @lru_cache(maxsize=1)
 def _kernels() -> SimpleNamespace:
     """Load the compiled parts on first use: compiling, or loading from the disk cache, starts with their first call."""
-    from ..stepping import fields, lanes, layout, rosenbrock
-    from ..stepping import right_hand_side as stepping_problem
+    from ..stepping import lanes, layout, right_hand_side, rosenbrock
 
     return SimpleNamespace(
         integrate=lanes.integrate,
         creep=rosenbrock.creep,
-        problem=stepping_problem.problem,
-        is_compiled=fields.is_compiled,
+        problem=right_hand_side.problem,
+        is_compiled=right_hand_side.is_compiled,
         states_of=layout.states_of,
     )
 

@@ -9,12 +9,12 @@ U in the disc, which need not even be among them. For an e-linear system both ar
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ...results.arrays import Array, read_only
 from ...results.result import Result, column_rows
@@ -22,6 +22,46 @@ from ...results.tables import html_table, paragraphs, point
 from ...results.words import say
 from ...systems.frozen import FrozenSystem
 from ...systems.kinds import AnySystem, takes_names
+from ..layer_problem.critical import CriticalSet
+from ..layer_problem.disc_zeros import disc_zeros
+from ..layer_problem.location import Existence, locate
+
+
+@takes_names
+def sliding_flow(system: AnySystem, z: ArrayLike = ()) -> NDArray[np.float64] | None:
+    """Z' along the critical sets, (2.30): W at the zeros of U, whatever Psi is.
+
+    For an e-linear system, which has at most one, it is ``-B A^-1 f + g`` (4.17): the Filippov convention,
+    and the mean of z' over a limit cycle of the layer problem (Proposition 4.2).
+
+    Parameters
+    ----------
+    system : ELinear or System, or either frozen at a z
+    z : (m,) floats
+
+    Returns
+    -------
+    ndarray (m,), or (k, m) for a general system, or None
+        A general system has a row for each critical set, in the order of `critical_sets`: where rows differ, sliding
+        is not unique (Section 5.3). None where there is no critical set: nothing slides there.
+
+    Examples
+    --------
+    It is -B A^-1 f + g:
+
+    >>> from codim2_core import ELinear, sliding_flow
+    >>> sliding_flow(ELinear(-2, 0, -1, (-0.5, 0), B=((4, 0),), g=(0.5,)), (0.0,)).tolist()
+    [-0.5]
+    """
+    at = system.at(z)
+    points = disc_zeros(at.key).e if at.affine is None else [e] if (e := locate(at).e) else []
+    return at.of_critical_sets(read_only(np.stack([at.W(e) for e in points]))) if len(points) else None
+
+
+def flow_on(at: FrozenSystem, critical: Sequence[CriticalSet]) -> NDArray[np.float64] | None:
+    """Return what `sliding_flow` does of a frozen system whose critical sets are known."""
+    return at.of_critical_sets(read_only(np.stack([C.slow_flow for C in critical]))) if critical else None
+
 
 SEARCH_DIRECTIONS = 512  # directions among which maxima are looked for, then refined
 FIRST_DIRECTIONS = 48  # directions of the first linear programme
@@ -305,3 +345,44 @@ def _maxima(height: Callable[[Array], Array], theta: Array) -> Array:
         left, right = height(np.concatenate([a, b])).reshape(2, -1)
         low, high = np.where(left < right, a, low), np.where(left < right, high, b)
     return 0.5 * (low + high)
+
+
+@dataclass(frozen=True, eq=False)
+class AffinePlane:
+    """The plane of affine combinations of limit vectors, (4.4), and its point on Sigma, (4.5)."""
+
+    # (2 + m, 2) A over B: the combination with (l1, l2) is ``matrix @ (l1, l2) + offset``; it is convex for |(l1,
+    # l2)| <= 1
+    matrix: Array
+    offset: Array  # (2 + m,) f over g
+    # (2,) The (l1, l2) of the point on Sigma, -A^-1 f; None where det A = 0, and so no or many points
+    place: Array | None
+    point: Array | None  # (m,) What the plane has on Sigma: -B A^-1 f + g
+    convex: bool  # whether it is a convex combination, |A^-1 f| <= 1: then there is sliding, else crossing
+    sentence: str
+
+
+_SENTENCES = {
+    Existence.INSIDE: say("affine: convex"),
+    Existence.NONE: say("affine: not convex"),
+    Existence.EQUATOR: say("affine: limit vector"),
+}
+_SINGULAR = say("affine: none single")
+
+
+def affine_plane(system: AnySystem, z: ArrayLike = ()) -> AffinePlane | None:
+    """Return the plane F_C of the e-linear system at z (m,) and where it meets Sigma; None if it is not affine."""
+    at = system.at(z).as_given
+    if at is None or at.m != system.m:
+        return None
+    matrix, offset = read_only(np.concatenate([at.A, at.B])), read_only(np.concatenate([at.f, at.g]))
+    location = locate(at)
+    if location.singular:
+        return AffinePlane(matrix, offset, None, None, False, _SINGULAR)
+    size = at.size
+    place = np.linalg.solve(at.A / size, -at.f / size).astype(float)
+    sentence = _SENTENCES[location.existence]
+    point = at.B @ place + at.g
+    return AffinePlane(
+        matrix, offset, read_only(place), read_only(point), location.existence is not Existence.NONE, sentence
+    )

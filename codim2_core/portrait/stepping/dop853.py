@@ -165,10 +165,7 @@ def advance(S, P, field):
 
 @fast_kernel
 def interpolate(S, P, field):
-    """Dense output of the step just tried, order 7: three further stages, seven coefficients in DENSE.
-
-    K12 is the field at NEW.
-    """
+    """Dense output of order 7 of the step just tried: three further stages; K12 is the field at NEW."""
     for m in range(ROW_WIDTH):
         S[m + TRIAL] = S[m + STATE] + S[m + STEP_ROW] * (
             0.056167502283047954 * S[m + K0]

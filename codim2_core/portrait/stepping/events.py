@@ -19,12 +19,7 @@ EQUATOR_SAMPLES = 8 * LANES  # points of the equator at which `winding` looks
 
 @fast_kernel
 def is_captured(S, P, field, lane, capture, scratch):
-    """Whether the state NEW of a lane is within `capture` (arc on the sphere) of an attracting equilibrium.
-
-    A Newton step in the tangent plane measures the distance, and the Jacobian's trace and determinant say whether it
-    attracts: a slow passage, a saddle or a centre ends nothing. Where that step leads it is measured again: while a
-    fast direction is still decaying, the slow rate there may be anything.
-    """
+    """Whether the state NEW of a lane is within `capture` (arc on the sphere) of an attracting equilibrium."""
     x, y, w = S[NEW + lane], S[NEW + LANES + lane], S[NEW + 2 * LANES + lane]
     kind, x, y, w = _newton_distance(x, y, w, P, field, lane, capture, scratch)
     if kind == NO_ATTRACTOR or w < 0.0:
@@ -114,10 +109,7 @@ def left_view(S, lane, view):
 
 @fast_kernel
 def winding(P, field, scratch):
-    """-1, 0 or +1: the closed equator repels, is absent or neutral, attracts on the hemisphere (Theorem 3.1(c)).
-
-    Outside it is the opposite. The sign of the integral of lambda_rho/|Theta|, by the trapezoidal rule.
-    """
+    """-1, 0 or +1: the closed equator repels, is absent or neutral, attracts on the hemisphere (Theorem 3.1(c))."""
     S2, P2 = scratch[: 2 * ROW_WIDTH], scratch[2 * ROW_WIDTH :]
     for m in range(PARAMETERS):
         P2[m] = 1.0 if SIDE_SIGN <= m < GAINS else P[m]  # outside, at w = rho = FAINT, where w' = w lambda_rho

@@ -30,8 +30,7 @@ from .layout import (
     STEP_ROW,
     WORKSPACE,
 )
-from .polyline import CURSOR, append_step
-from .polyline_buffers import BEGUN, begin_lines, end_line, in_order, keep_line, length_of, longer
+from .polyline import BEGUN, CURSOR, append_step, begin_lines, end_line, in_order, keep_line, length_of, longer
 
 # Outcomes; `orbits.trajectories.Status` lists their sentences in this order.
 T_MAX, EQUILIBRIUM, LEFT_VIEW, AT_LIMIT_DIRECTION, SPIRALLED, STAYS_ON_EQUATOR, STEP_LIMIT, LENGTH = range(8)
@@ -141,11 +140,7 @@ def _try(S, who, times, steps, tried, t_max):
 
 @fast_kernel
 def _event(S, P, field, k, flag, times, tried, t_max, capture, view, near, turn, scratch):
-    """Whether an accepted step ends its trajectory: the outcome or RUNNING, the time, and the fraction of the step.
-
-    turn : (2,)
-        What `winding` found for the equator, and 1; zeros before it is asked.
-    """
+    """Whether an accepted step ends its trajectory: the outcome or RUNNING, the time, and the fraction of the step."""
     if flag & LEAVING != 0:
         fraction = left_view(S, k, view)
         return LEFT_VIEW, times[k] + fraction * tried[k], fraction
@@ -195,10 +190,7 @@ def _accept_steps(S, times, accepted):
 # were the same and took 6 to 11 % longer (medians of paired runs, process time).
 @fast_kernel
 def integrate(states, signs, shared, field, own, until, t_max, rtol, atol, limit, capture, view, distance, longest):
-    """Integrate every row of `states`; scaled so that |U| is about 1.
-
-    Shapes: states (n, 3), signs (n,), own (m, 2), until (m,).
-    """
+    """Integrate every row of `states` (n, 3), with signs (n,), own (m, 2), until (m,); |U| is about 1."""
     n = states.shape[0]
     draw = distance > 0.0
     S, P, scratch = np.zeros(WORKSPACE), np.zeros(PARAMETERS), np.empty(MIRROR)

@@ -6,6 +6,13 @@ P holds the parameters.
 
 A right-hand side is a C function ``void(state, out, P)`` on such rows, entered by its address: the integrator is
 compiled once, whatever the system. The gain of Psi, where a right-hand side asks for it, is entered in the same way.
+
+The numbers that a compiled right-hand side reads, and the unit of time in which it runs.
+
+An e-linear field reads ``[a, b, d, f1, f2, parameter of Psi]``. A general one reads a factor (one over the unit of
+speed, negative backward in time), at FORMULAS the address of its packed formulas, and at GAIN that of the gain of Psi
+(so does an e-linear one whose lanes have a Psi of their own). A typed Psi has the address of its own packed formula in
+the place of a parameter.
 """
 
 from __future__ import annotations
@@ -15,7 +22,23 @@ import math
 import numpy as np
 
 from ...formulas.jit import kernel
-from .field_parameters import SHARED_SIZE
+from ...results.arrays import Array
+from ...systems.frozen import FrozenSystem
+
+FACTOR, PSI, GAIN, FORMULAS, SHARED_SIZE = 0, 5, 6, 7, 8
+
+
+def field_numbers(at: FrozenSystem, parameter: float, backward: bool, gain: int = 0, formulas: int = 0) -> Array:
+    """Return the parameters (SHARED_SIZE,) of a compiled field, scaled so that |U| is about 1."""
+    sign, unit = -1.0 if backward else 1.0, at.speed
+    shared = np.zeros(SHARED_SIZE)
+    shared[PSI:] = parameter, gain, formulas  # exact: addresses have fewer than 53 bits
+    if at.as_given is None:
+        shared[FACTOR] = sign / unit
+    else:
+        shared[:PSI] = [sign * (value / unit) for value in at.as_given.plane]
+    return shared
+
 
 # 32 doubles are four AVX-512 registers a component: stages then hide the latency of one another (measured:
 # 65 ns a step and lane with 8 lanes, 30 with 16, 20 with 32).
@@ -62,10 +85,7 @@ def _defect(x, y):
 
 @kernel
 def states_of(points):
-    """States (k, 3), signs (k,) of picture points (k, 2): p, and ebar (sign -1) or rho (+1); the largest coordinate.
-
-    That is nan where any is not finite.
-    """
+    """States (k, 3), signs (k,) of picture points (k, 2), and the largest coordinate, nan if one is not finite."""
     n = points.shape[0]
     largest = 0.0
     states, signs = np.empty((n, 3)), np.empty(n)

@@ -29,15 +29,15 @@ from ...formulas.jit import (
     scratch,
 )
 from ...formulas.packed import BOUND, ROWS, at_address, result, row, run_packed
+from ...systems.psi.families.record import UNDERFLOW_BOUND
 from ...systems.psi.function import Psi
-from ...systems.psi.kernel import UNDERFLOW_BOUND
-from .field_parameters import PSI
 from .layout import (
     BLOCK,
     BLOCKS,
     GAINS,
     LANES,
     PARAMETERS,
+    PSI,
     PSIS,
     ROW_WIDTH,
     SIDE_SIGN,
@@ -220,11 +220,6 @@ _compiled = GainVariants(_gains, _typed_gains)
 def gains(psi: Psi, smooth: bool) -> Any:
     """Return the compiled gain of all lanes, whose `address` a general system's field calls."""
     return _compiled.get(variant(psi, smooth))
-
-
-def has_gains(psi: Psi) -> bool:
-    """Whether `psi_gain` answers without compiling (a built-in family may still be loaded from the disk cache)."""
-    return variant(psi, False) in _compiled
 
 
 def _gains_of_block(state, out, parameters):

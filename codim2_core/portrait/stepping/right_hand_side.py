@@ -1,4 +1,12 @@
-"""A system and Psi as the compiled stepping reads them: the address of the field and its numbers."""
+"""A system and Psi as the compiled stepping reads them: the address of the field and its numbers.
+
+The layer problem and the nonsmooth outside as one compiled field: e-linear systems, for any Psi.
+
+``p' = U - p (p.U)`` and ``w' = -w (p.U)`` (w = ebar) or ``w' = +w (p.U)`` (w = rho), with U at ``e = gain p``. For
+Psi = 1 the gain is 1 on the sphere, and leaving it out extends the field off the sphere smoothly.
+
+Loops are free of branches and of library calls, so that they run in vector registers.
+"""
 
 from __future__ import annotations
 
@@ -10,16 +18,79 @@ from typing import Any
 import numpy as np
 
 from ...formulas import arrays
-from ...formulas.jit import SCRATCH_SIZE, ahead, call_at, carray, compile_address, scratch
+from ...formulas.jit import SCRATCH_SIZE, ahead, call_at, carray, compile_address, inlined_fast_kernel, scratch
 from ...formulas.names import FAST_NAMES
 from ...formulas.packed import ROWS, at_address, pack, result, row, run_packed
 from ...results.arrays import Array
 from ...systems.frozen import FrozenSystem
 from ...systems.psi.function import Psi
-from . import fields
-from .field_parameters import FACTOR, FORMULAS, GAIN, field_numbers
-from .layout import LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN
-from .psi_gain import gain_parameter, gains, gains_of_block, gains_of_blocks
+from .layout import FACTOR, FORMULAS, GAIN, LANES, PARAMETERS, PSI, ROW_WIDTH, SIDE_SIGN, field_numbers
+from .psi_gain import (
+    GainVariants,
+    arguments,
+    gain,
+    gain_parameter,
+    gains,
+    gains_of_block,
+    gains_of_blocks,
+    kind,
+    variant,
+    write_typed_gains,
+)
+
+
+@inlined_fast_kernel
+def write_lane(S, out, P, lane, gain, a, b, d, f1, f2):
+    """Write one lane of the field, given its gain and coefficients."""
+    x, y, w = S[lane], S[lane + LANES], S[lane + 2 * LANES]
+    c, s = gain * x, gain * y
+    u = a * c - b * s + f1
+    v = b * c + d * s + f2
+    q = x * u + y * v
+    out[lane] = u - x * q
+    out[lane + LANES] = v - y * q
+    out[lane + 2 * LANES] = P[lane + SIDE_SIGN] * w * q
+
+
+def _psi_field(state, out, parameters):
+    S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (PARAMETERS,))
+    parameter = kind(P[PSI])
+    for lane in range(LANES):
+        r2, w = arguments(S, P, lane)
+        write_lane(S, D, P, lane, gain(r2, w, parameter), P[0], P[1], P[2], P[3], P[4])
+
+
+def _field_of_gain(state, out, parameters):
+    call_at(int(carray(parameters, (PARAMETERS,))[GAIN]), state, out, parameters)
+    S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (PARAMETERS,))
+    for lane in range(LANES):
+        write_lane(S, D, P, lane, D[lane], P[0], P[1], P[2], P[3], P[4])
+
+
+def _typed_psi_field(state, out, parameters):
+    S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (PARAMETERS,))
+    write_typed_gains(state, out, parameters, P[PSI], LANES)
+    for lane in range(LANES):
+        write_lane(S, D, P, lane, D[lane], P[0], P[1], P[2], P[3], P[4])
+
+
+_compiled = GainVariants(_psi_field, _typed_psi_field)
+
+
+def is_compiled(psi: Psi) -> bool:
+    """Whether `field` answers without compiling (a built-in family may still be loaded from the disk cache)."""
+    return variant(psi, True) in _compiled
+
+
+def field_of_psi(psi: Psi) -> Any:
+    """Return the compiled field for Psi, (3.26) and (2.12) in one chart; keep it while its `address` is in use."""
+    return _compiled.get(variant(psi, True))
+
+
+@lru_cache(maxsize=1)
+def field_of_gain() -> Any:
+    """Return the same for a gain that is called at its address, in place GAIN of the parameters."""
+    return compile_address(_field_of_gain)
 
 
 def _interpreted_field(state, out, parameters):
@@ -53,10 +124,7 @@ def general_field() -> Any:
 
 @lru_cache(maxsize=64)
 def packed_formulas(key: Hashable) -> tuple[Array, bool]:
-    """Return the formulas of `Frozen.key` packed, and whether U is smooth beyond |e| = 1 too.
-
-    The address of the array enters the parameters; it must outlive that.
-    """
+    """Return the formulas of `Frozen.key` packed, to be kept while in use, and whether U is smooth beyond |e| = 1."""
     program = arrays.program(key)
     return pack(program, len(FAST_NAMES)), program.is_entire
 
@@ -86,7 +154,7 @@ class CompiledProblem:
 def problem(at: FrozenSystem, psi: Psi, backward: bool = False) -> CompiledProblem:
     """Prepare a right-hand side."""
     if at.as_given is not None:
-        field = fields.field(psi)
+        field = field_of_psi(psi)
         shared = field_numbers(at, gain_parameter(psi), backward)
         return CompiledProblem(field.address, shared, (field, psi), slice(0, 5), ALONE)
     formulas, smooth = packed_formulas(at.key)
@@ -100,7 +168,7 @@ def problems(at: FrozenSystem, psis: Sequence[Psi], backward: bool = False) -> C
     own = np.array([(gain.address, gain_parameter(psi)) for gain, psi in zip(each, psis, strict=True)], float)
     if formulas is not None:
         return _general_problem(at, formulas, mixed, psis[0], backward, (*each, *psis), own)
-    field, shared = fields.field_of_gain(), field_numbers(at, gain_parameter(psis[0]), backward, mixed.address)
+    field, shared = field_of_gain(), field_numbers(at, gain_parameter(psis[0]), backward, mixed.address)
     return CompiledProblem(field.address, shared, (field, mixed, *each, *psis), slice(0, 5), own)
 
 

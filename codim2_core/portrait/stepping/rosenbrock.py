@@ -41,8 +41,7 @@ from .layout import (
     TRIAL,
     WORKSPACE,
 )
-from .polyline import CURSOR, X, Y, append_step, start
-from .polyline_buffers import end_line, keep_line, length_of, longer
+from .polyline import CURSOR, X, Y, append_step, end_line, keep_line, length_of, longer, start
 
 # As in `lanes`
 T_MAX, EQUILIBRIUM, LEFT_VIEW, AT_LIMIT_DIRECTION, STEP_LIMIT, LENGTH, RUNNING = 0, 1, 2, 3, 6, 7, -1
@@ -236,13 +235,7 @@ def _begin_lanes(S, P, states, signs, t_max, field, base, many, cursor, lines, t
 # (median of paired runs, process time).
 @fast_kernel
 def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, capture, view, distance):
-    """Follow every row of `states` implicitly.
-
-    Arguments and results are those of `lanes.integrate`, but for
-
-    t_max, longest : (n,)
-        Time and length of line that are left, of each.
-    """
+    """Follow every row of `states` implicitly, as `lanes.integrate`; t_max and longest (n,): what is left."""
     n = states.shape[0]
     S, P, scratch = np.zeros(WORKSPACE), np.zeros(PARAMETERS), np.empty(MIRROR)
     for m in range(SIDE_SIGN):

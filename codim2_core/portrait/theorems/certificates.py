@@ -18,18 +18,26 @@ from ...results.words import say
 from ...systems.frozen import FrozenSystem
 from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.function import Psi
-from ..cycles.limit_cycles import LimitCycle
+from ..cycles.limit_cycles import LimitCycle, certificate_of, excluding_theorem
+from ..cycles.proof.result import Proof
 from ..layer_problem.location import Existence
 from ..layer_problem.problem import LayerProblem
-from ..sliding.flow import sliding_flow
-from .cases import case1, case2
-from .degenerate import NOT_LINEAR, equal_diagonal, normal_form, symmetric
-from .facts import RAY_ANGLES, RELATIVE_TOLERANCE, Array, Certificate, Facts, Verdict, not_applicable, verdict_of
-from .paper_examples import attracting_and_repelling, ball_in_pool, nonunique
-from .psi_claims import psi_claims
-from .sliding_claims import sliding_claims
+from ..sliding.filippov import sliding_flow
+from .cases import (
+    NOT_LINEAR,
+    attracting_and_repelling,
+    ball_in_pool,
+    case1,
+    case2,
+    equal_diagonal,
+    nonunique,
+    normal_form,
+    symmetric,
+)
+from .facts import RAY_ANGLES, RELATIVE_TOLERANCE, Array, Certificate, Claim, Facts, Verdict
+from .sliding_claims import psi_claims, sliding_claims
 
-__all__ = ["Certificate", "Verdict", "certificates"]
+__all__ = ["Certificate", "Verdict", "certificates", "prove_portrait"]
 
 MOST_CONDITION = 1e12
 
@@ -106,11 +114,11 @@ def certificates_of(
 
 
 def _equilibria(facts: Facts) -> Certificate:
-    theorem, statement = "thm:geneps0(a)", say("geneps0(a)")
+    claim = Claim("thm:geneps0(a)", say("geneps0(a)"))
     if facts.equator.all_directions:
-        return Certificate(theorem, statement, Verdict.HOLDS, (), say("all are equilibria"))
+        return claim.decided(True, (), say("all are equilibria"))
     if not len(facts.equator):
-        return not_applicable(theorem, statement, say("no equilibrium"))
+        return claim.not_applicable(say("no equilibrium"))
     numbers, worst = [], 0.0
     for label, theta in zip(facts.equator.labels, facts.equator.theta.tolist(), strict=True):
         c, s = math.cos(theta), math.sin(theta)
@@ -118,17 +126,17 @@ def _equilibria(facts: Facts) -> Certificate:
         numbers.append((f"Θ at {label}", float(c * u2 - s * u1)))
         worst = max(worst, abs(numbers[-1][1]))
     count = len(numbers)
-    return Certificate(
-        theorem, statement, verdict_of(worst <= RELATIVE_TOLERANCE * facts.size), tuple(numbers),
+    return claim.decided(
+        worst <= RELATIVE_TOLERANCE * facts.size,
+        numbers,
         say("vanishes in one" if count == 1 else "vanishes in", count=count),
-    )  # fmt: skip
+    )
 
 
 def _up_the_sphere(facts: Facts) -> Certificate:
-    theorem = "thm:geneps0(b)"
-    statement = say("geneps0(b)")
+    claim = Claim("thm:geneps0(b)", say("geneps0(b)"))
     if not len(facts.equator):
-        return not_applicable(theorem, statement, say("none isolated"))
+        return claim.not_applicable(say("none isolated"))
     numbers, holds = [], True
     equator = facts.equator
     rows = zip(equator.labels, equator.theta, equator.lambda_rho, equator.radially_degenerate, strict=True)
@@ -139,18 +147,14 @@ def _up_the_sphere(facts: Facts) -> Certificate:
         numbers += [(f"λ_ρ at {label}", float(rate)), (f"rate up the hemisphere at {label}", up)]
         # a degenerate one is named so within 1e-4 of the direction of the critical set, with lambda_rho set to 0
         holds &= abs(up + rate) <= (1e-3 if flat else 1e-6) * facts.size
-    return Certificate(
-        theorem, statement, verdict_of(holds), tuple(numbers),
-        say("goes on up"),
-    )  # fmt: skip
+    return claim.decided(holds, numbers, say("goes on up"))
 
 
 def _closed_equator(facts: Facts) -> Certificate:
-    theorem = "thm:geneps0(c)"
-    statement = say("geneps0(c)")
+    claim = Claim("thm:geneps0(c)", say("geneps0(c)"))
     cycle = facts.cycle
     if cycle is None:
-        return not_applicable(theorem, statement, say("there are directions"))
+        return claim.not_applicable(say("there are directions"))
     # The trapezoidal rule converges fast for a periodic analytic integrand; the exponent itself is a closed form.
     theta = np.linspace(0.0, 2.0 * math.pi, 4096, endpoint=False)
     e = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
@@ -163,7 +167,7 @@ def _closed_equator(facts: Facts) -> Certificate:
         around = (d - a) * e[:, 1] * e[:, 0] + f2 * e[:, 0] - f1 * e[:, 1] + b
         size = abs(d - a) + abs(f1) + abs(f2) + abs(b)
     if not around.all():  # directions to rounding, such as those of a star that was typed in turned axes
-        return not_applicable(theorem, statement, say("there are directions"))
+        return claim.not_applicable(say("there are directions"))
     integral = float((out / abs(around)).mean() * 2.0 * math.pi)
     weight = float((abs(out) / abs(around)).mean() * 2.0 * math.pi)
     rounding = 1e-15 * size
@@ -173,18 +177,17 @@ def _closed_equator(facts: Facts) -> Certificate:
     least = float(abs(around).min())
     ends = "is neutral" if cycle.neutral else "attracts" if cycle.stable_outside else "repels"
     other = "is neutral" if cycle.neutral else "repels" if cycle.stable_outside else "attracts"
-    return Certificate(
-        theorem, statement, verdict_of(holds),
+    return claim.decided(
+        holds,
         (("∫ λ_ρ/|Θ| dθ", cycle.exponent), ("the same by quadrature", integral), ("least |Θ|", least)),
         say("equator ends", ends=ends, other=other),
-    )  # fmt: skip
+    )
 
 
 def _slow_on_the_sphere() -> Certificate:
-    return Certificate(
-        "thm:geneps0(d)", say("geneps1: z"), Verdict.HOLDS, (("ρ", 0.0), ("dz/dT = ρ W", 0.0)),
-        say("geneps1: z, why"),
-    )  # fmt: skip
+    return Claim("thm:geneps0(d)", say("geneps1: z")).decided(
+        True, (("ρ", 0.0), ("dz/dT = ρ W", 0.0)), say("geneps1: z, why")
+    )
 
 
 # Theorem 4.1 ------------------------------------------------------------------------------------------------------
@@ -202,17 +205,16 @@ def _solution(facts: Facts) -> tuple[Array, float] | str:
 
 
 def _existence(facts: Facts) -> Certificate:
-    theorem = "thm:lineps1(a)"
-    statement = say("one set")
+    claim = Claim("thm:lineps1(a)", say("one set"))
     if facts.location is None:
-        return not_applicable(theorem, statement, NOT_LINEAR)
+        return claim.not_applicable(NOT_LINEAR)
     solution = _solution(facts)
     if isinstance(solution, str):
-        return not_applicable(theorem, statement, solution)
+        return claim.not_applicable(solution)
     inverse, condition = solution
     length = float(np.linalg.norm(inverse))
     if facts.location.existence is Existence.EQUATOR:
-        return not_applicable(theorem, statement, say("border of existence", length=length))
+        return claim.not_applicable(say("border of existence", length=length))
     numbers: list[tuple[str, float]] = [("|A⁻¹f|", length), ("critical sets", float(len(facts.critical)))]
     near = abs(length - 1.0) <= 1e-9 * condition
     holds = near or (length < 1.0) == (len(facts.critical) == 1)
@@ -224,10 +226,7 @@ def _existence(facts: Facts) -> Certificate:
         residual = float(abs(facts.frozen_system.U(e)).max())
         numbers.append(("|A e_Ψ + f| there", residual))
         holds &= residual <= RELATIVE_TOLERANCE * facts.size
-    return Certificate(
-        theorem, statement, verdict_of(holds), tuple(numbers),
-        say("one set here" if facts.critical else "no set here", length=length),
-    )  # fmt: skip
+    return claim.decided(holds, numbers, say("one set here" if facts.critical else "no set here", length=length))
 
 
 def _has_affine_w(at: FrozenSystem) -> bool:
@@ -239,18 +238,17 @@ def _has_affine_w(at: FrozenSystem) -> bool:
 
 
 def _filippov(facts: Facts) -> Certificate:
-    theorem = "thm:lineps1(b)"
-    statement = say("slow flow of C")
+    claim = Claim("thm:lineps1(b)", say("slow flow of C"))
     if facts.location is None or not _has_affine_w(facts.frozen_system):
-        return not_applicable(theorem, statement, NOT_LINEAR if facts.location is None else say("W not e-linear"))
+        return claim.not_applicable(NOT_LINEAR if facts.location is None else say("W not e-linear"))
     if not facts.critical:
-        return not_applicable(theorem, statement, say("no isolated critical set"))
+        return claim.not_applicable(say("no isolated critical set"))
     if not facts.frozen_system.m:
-        return not_applicable(theorem, statement, say("no slow variable"))
+        return claim.not_applicable(say("no slow variable"))
     e, slow = facts.critical[0].e, facts.critical[0].slow_flow
     formula = sliding_flow(facts.frozen_system)
     if formula is None:
-        return not_applicable(theorem, statement, say("no sliding flow"))
+        return claim.not_applicable(say("no sliding flow"))
     formula = formula.reshape(slow.shape)
     size = facts.slow_size
     worst = float(abs(slow - formula).max())
@@ -267,25 +265,21 @@ def _filippov(facts: Facts) -> Certificate:
     numbers = [(f"z{i + 1}′", float(v)) for i, v in enumerate(slow)]
     numbers += [("difference from −B A⁻¹f + g", worst), ("difference from six Filippov combinations", spread)]
     holds = worst <= RELATIVE_TOLERANCE * size and spread <= RELATIVE_TOLERANCE
-    return Certificate(
-        theorem, statement, verdict_of(holds), tuple(numbers),
-        say("all combinations agree"),
-    )  # fmt: skip
+    return claim.decided(holds, numbers, say("all combinations agree"))
 
 
 # Index and limit cycles --------------------------------------------------------------------------------------------
 
 
 def _index(facts: Facts) -> Certificate:
-    theorem = "sec:geneps0, index theory"
-    statement = say("index")
+    claim = Claim("sec:geneps0, index theory", say("index"))
     equator = facts.equator
     if facts.uncertain is not None:
-        return not_applicable(theorem, statement, facts.uncertain)
+        return claim.not_applicable(facts.uncertain)
     singular = facts.location is not None and facts.location.singular
     degree = equator.turns
     if degree is None or singular:
-        return not_applicable(theorem, statement, say("index not defined"))
+        return claim.not_applicable(say("index not defined"))
     theta = np.linspace(0.0, 2.0 * math.pi, 721)
     U = facts.frozen_system.U(np.stack([np.cos(theta), np.sin(theta)], axis=-1))
     index = float(sum(C.index for C in facts.critical))
@@ -296,21 +290,20 @@ def _index(facts: Facts) -> Certificate:
         turns = float(steps.sum() / (2.0 * math.pi))
         numbers.append(("turns of U, followed along the equator", turns))
         holds &= abs(turns - index) < 1e-6
-    return Certificate(theorem, statement, verdict_of(holds), tuple(numbers), say("none is missing"))
+    return claim.decided(holds, numbers, say("none is missing"))
 
 
 def _limit_cycles(facts: Facts, cycles: Iterable[LimitCycle] | None) -> Certificate:
-    theorem = "prop:LC"
-    statement = say("mean over a cycle")
+    claim = Claim("prop:LC", say("mean over a cycle"))
     found = () if cycles is None else tuple(cycles)
     if not found:
         why = say("no cycle given") if cycles is None else say("no cycle there")
-        return not_applicable(theorem, statement, why)
+        return claim.not_applicable(why)
     if facts.location is None or not _has_affine_w(facts.frozen_system):
-        return not_applicable(theorem, statement, NOT_LINEAR if facts.location is None else say("W not e-linear"))
+        return claim.not_applicable(NOT_LINEAR if facts.location is None else say("W not e-linear"))
     solution = _solution(facts)
     if isinstance(solution, str):
-        return not_applicable(theorem, statement, solution)
+        return claim.not_applicable(solution)
     mean = -solution[0]
     slow = facts.frozen_system.W(mean)
     numbers, holds = [], True
@@ -325,6 +318,39 @@ def _limit_cycles(facts: Facts, cycles: Iterable[LimitCycle] | None) -> Certific
             numbers.append((f"cycle {i + 1}: difference of slow flows", gap))
             holds &= gap <= 1e-6 * size
     if not numbers:
-        return not_applicable(theorem, statement, say("no slow variable, no mean"))
+        return claim.not_applicable(say("no slow variable, no mean"))
     sentence = say("mean is that of C")
-    return Certificate(theorem, statement, verdict_of(holds), tuple(numbers), sentence)
+    return claim.decided(holds, numbers, sentence)
+
+
+@takes_names
+def prove_portrait(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> Proof:
+    """Prove a portrait: its limit directions, its critical sets, and that it has no other limit cycles than are found.
+
+    By a certificate that a program of its own checks, `Proof.checker`, where U is a polynomial in c and s, of degree up
+    to 16, and Psi constant, rational, exponential, tanh, or of the Hill family with n >= 1. Where none is found, but a
+    theorem excludes limit cycles, their count is proved, and nothing else. How: `codim2_core.portrait.cycles.proof`.
+
+    Parameters
+    ----------
+    system : ELinear or System, or either frozen at a z
+    psi : Psi
+    z : (m,) floats
+
+    Returns
+    -------
+    Proof
+        Where something is degenerate, as two limit directions that have just met, it is not proved.
+
+    Examples
+    --------
+    Two stable nodes and the saddle between them, eight limit directions, and no limit cycle:
+
+    >>> from codim2_core import prove_portrait
+    >>> found = prove_portrait("nonunique-sliding")
+    >>> found.critical_sets, len(found.limit_directions), found.portrait
+    (('stable node', 'saddle', 'stable node'), 8, True)
+    """
+    problem = LayerProblem(system.at(z), psi)
+    found, theorem = certificate_of(problem), excluding_theorem(problem)
+    return found if found or theorem is None else Proof(True, (), theorem)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
 from typing import Any
@@ -168,11 +169,18 @@ class Facts:
         )
 
 
-def verdict_of(holds: bool) -> Verdict:
-    """Turn a truth value into HOLDS or FAILS."""
-    return Verdict.HOLDS if holds else Verdict.FAILS
+@dataclass(frozen=True)
+class Claim:
+    """A claim of the paper, by its label, and what it says in short."""
 
+    theorem: str
+    statement: str
 
-def not_applicable(theorem: str, statement: str, why: str) -> Certificate:
-    """Say why a claim does not apply."""
-    return Certificate(theorem, statement, Verdict.DOES_NOT_APPLY, (), why)
+    def decided(self, holds: bool, numbers: Iterable[tuple[str, float]], sentence: str) -> Certificate:
+        """Say whether it holds, and what shows it."""
+        verdict = Verdict.HOLDS if holds else Verdict.FAILS
+        return Certificate(self.theorem, self.statement, verdict, tuple(numbers), sentence)
+
+    def not_applicable(self, why: str) -> Certificate:
+        """Say why it does not apply."""
+        return Certificate(self.theorem, self.statement, Verdict.DOES_NOT_APPLY, (), why)

@@ -9,9 +9,9 @@ from numbers import Real
 from types import MappingProxyType
 from typing import Any
 
-from ..bounds import MAX_NUMBER
 from ..elinear import ELinear
 from ..mechanics.several.contacts import Contacts
+from ..reading import MAX_NUMBER
 from ..typed import System
 
 GRAVITY = 9.81  # m/s²

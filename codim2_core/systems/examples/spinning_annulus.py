@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from numbers import Real
 
-from ..bounds import MAX_NUMBER
+from ..reading import MAX_NUMBER
 from ..typed import System
 from .example import GRAVITY, Example, check_physics
 from .spinning_disc import force, torque

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..elinear import ELinear
-from ..mechanics.contact import contact
+from ..mechanics.mechanism import contact
 from ..typed import System
 from .example import Example, check_physics
 

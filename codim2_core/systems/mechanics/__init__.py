@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from ..arguments import checked_functions
-from .contact import contact
-from .contact_force import ContactForce
+from .contact_force import ContactForce, Grip
 from .fit import Fit, fit
 from .friction_law import stribeck
-from .grip import Grip
-from .mechanism import Mechanism
+from .mechanism import Mechanism, contact
 from .several.contacts import Contacts, contacts
 from .several.result import ContactDecision, ContactMotion, ContactPhase, ContactStatus
 

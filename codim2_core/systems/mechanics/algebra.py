@@ -74,10 +74,7 @@ class Algebra:
         return total
 
     def solved_positive(self, M: Matrix, columns: Sequence[MatrixRow]) -> tuple[MatrixRow, ...]:
-        """Solve M x = b for several columns b, M symmetric and positive definite: so no pivot is ever 0.
-
-        Raises ValueError: A pivot is a number that is not positive: M is not positive definite.
-        """
+        """Solve M x = b for several columns b, M symmetric and positive definite: so no pivot is ever 0."""
         n = len(M)
         A, B = [list(row) for row in M], [list(column) for column in columns]
         for k in range(n):

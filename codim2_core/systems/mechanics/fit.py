@@ -16,10 +16,9 @@ from ...results.arrays import Array
 from ...results.result import Result
 from ...results.tables import html_table, paragraphs, table_number
 from ...results.words import say
-from ..bounds import slow_values
+from ..coefficients import Parameters
 from ..elinear import ELinear
-from ..parameters import Parameters
-from ..reading import short_repr
+from ..reading import short_repr, slow_values
 from ..typed import System
 
 STOPPED = 30.0  # log of how much slower than at the start it is when it stops
@@ -53,10 +52,7 @@ class Slipping:
 
 
 def integrate_slip(system: ELinear | System, start: ArrayLike, z: ArrayLike, times: Array, most: int) -> Slipping:
-    """Follow the slip from a start at the first time until it stops, or until the last time.
-
-    Raises TooLongError: It takes more than `most` evaluations.
-    """
+    """Follow the slip from the first time until it stops, or to the last; TooLongError beyond `most` evaluations."""
     from scipy.integrate import solve_ivp
 
     x, y = (float(v) for v in np.asarray(start, float))

@@ -34,7 +34,7 @@ class Preset:
     B, g : (m, 2) and (m,)
         Its slow flow; without them it has no slow variables.
     example : str
-        A key of `examples.offered.catalogue`, or "".
+        A key of `examples.catalogue`, or "".
     z : tuple of float
     family : str
         Of Psi.

@@ -8,8 +8,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from difflib import get_close_matches
+from importlib import import_module
 from types import MappingProxyType
+from typing import Any
 
+from ..arguments import checked_functions
+from ..examples import catalogue
 from .bifurcations import bifurcation_presets
 from .examples import example_presets
 from .preset import Add, Preset, collector
@@ -187,3 +191,21 @@ def unregister(name: str) -> None:
     if name not in _presets or name in _LISTED:
         raise ValueError(f"{name!r} is no preset that was registered.")
     del _presets[name]
+
+
+def named_setting(name: str) -> dict[str, Any]:
+    """Return system, Psi and z of a preset, or the system of an example, by name; ValueError with the names like it."""
+    if name in presets:
+        found = presets[name]
+        return {"system": found.system, "psi": found.psi, "z": found.z}
+    if name in catalogue:
+        return {"system": catalogue[name].make()}
+    near = get_close_matches(name, (*presets, *catalogue), n=3)
+    like = f"the nearest names are {', '.join(near)}" if near else "`codim2 presets` lists the names"
+    raise ValueError(f"system is {name[:40]!r}, no preset or example; {like}. Or give an ELinear or a System.")
+
+
+def find_public(package: str, home: str, name: str) -> object:
+    """Return what a module of a package calls `name`; a function comes with the checks of what it is given."""
+    one = {name: getattr(import_module(f".{home}", package), name)}
+    return (one | checked_functions(package, one, one, named_setting))[name]

@@ -9,8 +9,7 @@ import numpy as np
 
 from ...formulas.expression import Expression, parse
 from .condition import Condition, PsiCheck
-from .families.record import Family
-from .kernel import VECTOR, Kernel
+from .families.record import VECTOR, Family, Kernel
 from .typed import NEGLIGIBLE, PROBES, Array, first_not_positive, refine
 
 PROBED = "as far as probing s from 0 to 1e16 can tell"

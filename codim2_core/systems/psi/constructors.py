@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from ...formulas.expression import parse
 from .families import FAMILIES, Family, family_of_name
 from .families.custom import FAMILY as TYPED
+from .families.record import Each
 from .function import Psi
-from .kernel import Each
 from .typed import custom_kernel
 
 
@@ -196,20 +196,14 @@ def _member(record: Family, parameter: Any) -> Psi:
 
 
 def with_parameter(psi: Psi, value: Any) -> Psi:
-    """Return the member of the same family with another parameter.
-
-    Raises ValueError: The family has none, or the value is not allowed.
-    """
+    """Return the member of the same family with another parameter."""
     if psi.record.parameter is None:
         raise ValueError(f"Psi = {psi.text} has no parameter; choose a family that has one, such as psi.hill(2).")
     return _member(psi.record, value)
 
 
 def many(psi: Psi, values: NDArray[np.float64]) -> Psi:
-    """Members of the family of psi, one for each value: a Psi that works on arrays of that length only.
-
-    Shapes: values (k,).
-    """
+    """Members of the family of psi, one for each of the values (k,): a Psi that works on arrays of that length only."""
     record = psi.record
     if record.batched and record.kernel is not None:
         kernel = record.kernel(values)

@@ -24,11 +24,10 @@ from ...results import drawing
 from ...results.arrays import Array
 from ...results.result import Listed
 from ...results.tables import paragraphs
-from . import kernel as arithmetic
 from .condition import PsiCheck
 from .conditions import check
 from .families import constant
-from .families.record import Family
+from .families.record import SCALAR, VECTOR, Family, Kernel
 
 __all__ = ["Psi"]
 
@@ -64,7 +63,7 @@ class Psi(Listed):
     parameter: float
     text: str
     expression: Expression | None = field(default=None, compare=False, repr=False)
-    kernel: arithmetic.Kernel = field(default_factory=constant.Constant, compare=False, repr=False)
+    kernel: Kernel = field(default_factory=constant.Constant, compare=False, repr=False)
     record: Family = field(default=constant.FAMILY, compare=False, repr=False)
 
     def _repr_svg_(self) -> str | None:
@@ -280,7 +279,7 @@ class Psi(Listed):
         if complement is None:
             complement = (1.0 - modulus) * (1.0 + modulus)
         w = modulus / lib.sqrt(complement)
-        if w == 0.0 if lib is arithmetic.SCALAR else not w.size:
+        if w == 0.0 if lib is SCALAR else not w.size:
             return w
         zeta = self.kernel.inverse(lib, w)
         return lib.where(w > 0.0, zeta, 0.0)
@@ -315,8 +314,35 @@ def _apply(function: Any, x: Any, what: str, most: float, rule: str, *more: Any)
                 found = _culprit(x, lambda v: (v >= 0.0) & (v <= most))
                 raise ValueError(f"{what} is {found}; allowed is {rule}.")
             with np.errstate(all="ignore"):
-                return function(arithmetic.VECTOR, x, *more)
+                return function(VECTOR, x, *more)
         x = float(x)
     if not 0.0 <= x <= most:
         raise ValueError(f"{what} is {x!r}; allowed is {rule}.")
-    return function(arithmetic.SCALAR, x, *more)
+    return function(SCALAR, x, *more)
+
+
+def direction(psi: Psi | None, eps: float, xy: Array, along: Array | None = None) -> Array:
+    """Return e (k, 2) at (x, y): regularised, or, for eps = 0, outside Sigma."""
+    if psi is None or eps == 0.0:
+        r = np.hypot(*xy.T)[:, None]
+        e = np.divide(xy, r, out=np.zeros_like(xy), where=r > 0.0)
+        return e if along is None else np.sign(e @ along)[:, None] * along
+    return xy / (eps * np.sqrt((zeta := np.hypot(*xy.T) / eps) ** 2 + psi(zeta**2)))[:, None]
+
+
+def outside(xy: Array, along: Array | None = None) -> tuple[Array, Array]:
+    """Return e = (x, y)/|(x, y)| (k, 2) of the nonsmooth system and its derivative (k, 2, 2); 0 on Sigma itself."""
+    r, e = np.hypot(*xy.T)[:, None], direction(None, 0.0, xy, along)
+    if along is not None:
+        return e, np.zeros((len(e), 2, 2))
+    across = np.eye(2) - e[:, :, None] * e[:, None, :]
+    return e, np.divide(across, r[:, :, None], out=np.zeros_like(across), where=r[:, :, None] > 0.0)
+
+
+def smoothed_direction(psi: Psi, eps: float, xy: Array) -> tuple[Array, Array]:
+    """Return e_Psi (k, 2), (2.19), at xy (k, 2), and its derivative (k, 2, 2), Remark 3.2."""
+    r = np.hypot(*xy.T)
+    radial, tangential = (factor / eps for factor in psi.jacobian_factors(r / eps))
+    n = np.divide(xy, r[:, None], out=np.zeros_like(xy), where=r[:, None] > 0.0)
+    De = tangential[:, None, None] * np.eye(2) + (radial - tangential)[:, None, None] * n[:, :, None] * n[:, None, :]
+    return tangential[:, None] * xy, De

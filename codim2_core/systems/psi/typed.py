@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ...formulas.expression import Expression
 from ...results.arrays import Array
-from .kernel import SCALAR, UNDERFLOW_BOUND, VECTOR, Kernel
+from .families.record import SCALAR, UNDERFLOW_BOUND, VECTOR, Kernel
 
 # Where Psi is probed: s = 0 and a dense grid, about 100 points a decade.
 PROBES: Array = np.concatenate([[0.0], np.geomspace(1e-16, 1e16, 3201)])
@@ -152,10 +152,7 @@ class Custom(Kernel):
 
 @lru_cache(maxsize=64)
 def custom_kernel(expression: Expression) -> Custom:
-    """Kernel of a typed Psi.
-
-    Raises ValueError: The Psi is unusable: not finite or negative somewhere, or |e_Psi| does not rise from 0 to 1.
-    """
+    """Kernel of a typed Psi."""
     values = expression.evaluate({"s": PROBES})
     kernel = Custom(expression, _find_saturation(expression, values))
     values = np.where(kernel.saturation > PROBES, values, 0.0)

@@ -16,15 +16,14 @@ from codim2_core.bifurcations.diagrams.eigenvalue_path import LinearisationPath
 from codim2_core.bifurcations.diagrams.result import Branches, SpecialValue
 from codim2_core.bifurcations.plane.curve import BifurcationCurve
 from codim2_core.bifurcations.plane.regions import Regions
-from codim2_core.motion.periodic.response_result import ResponseCurve
-from codim2_core.motion.periodic.result import PeriodicMotion
+from codim2_core.motion.periodic.result import PeriodicMotion, ResponseCurve
 from codim2_core.motion.result import Simulation
 from codim2_core.numerics.dense import DenseMotion
 from codim2_core.portrait.basins import Basins
 from codim2_core.portrait.cycles.limit_cycles import LimitCycles
 from codim2_core.portrait.nullcline.nullclines import Nullclines
 from codim2_core.portrait.orbits.trajectories import Trajectories
-from codim2_core.portrait.separatrix import Separatrices
+from codim2_core.portrait.separatrix_branches import Separatrices
 from codim2_core.portrait.sliding.slow_portrait_result import SlowPortrait
 from codim2_core.scene import Scene
 from codim2_core.scene.launched_orbits import LaunchedOrbits

@@ -8,9 +8,8 @@ import numpy as np
 
 from codim2_core.motion.initial_value.field import field
 from codim2_core.motion.periodic.response import response_curve
-from codim2_core.motion.periodic.response_points import ResponsePoint
-from codim2_core.motion.periodic.response_result import ResponseCurve
-from codim2_core.motion.periodic.settling import forcing_period, settled_motion
+from codim2_core.motion.periodic.result import ResponseCurve, ResponsePoint
+from codim2_core.motion.periodic.search import forcing_period, settled_motion
 from codim2_core.portrait.layer_problem.vary import vary
 from codim2_core.systems.psi.function import Psi
 

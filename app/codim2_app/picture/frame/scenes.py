@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from typing import Any
 
-from codim2_core.portrait.layer_problem.direction_names import cut_that_keeps_names
+from codim2_core.portrait.layer_problem.equator import cut_that_keeps_names
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
-from codim2_core.systems.examples.offered import keys_at_contacts
+from codim2_core.systems.examples import keys_at_contacts
 from codim2_core.systems.typed import System
 
 from ..draw.theme import PICTURE_REACH

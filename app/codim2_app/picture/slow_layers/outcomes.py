@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from codim2_core.portrait.outcome import Outcome, Outcomes
+from codim2_core.portrait.approach_outcomes import Outcome, Outcomes
 from codim2_core.results.words import written_label
 from codim2_core.scene import Scene
 

@@ -19,8 +19,7 @@ from codim2_core.formulas.reader import names_in
 from codim2_core.formulas.tape import CONSTANTS, FUNCTIONS
 from codim2_core.results.paper import cite
 from codim2_core.systems.elinear import ELinear
-from codim2_core.systems.examples import catalogue
-from codim2_core.systems.examples.offered import keys_at_contacts
+from codim2_core.systems.examples import catalogue, keys_at_contacts
 from codim2_core.systems.typed import System
 
 from ..draw.mathml import equations_mathml, plain_symbol

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from codim2_core.motion.periodic.settling import forcing_period
-from codim2_core.systems.examples import catalogue
-from codim2_core.systems.examples.offered import keys_at_contacts
+from codim2_core.motion.periodic.search import forcing_period
+from codim2_core.systems.examples import catalogue, keys_at_contacts
 
 from .choices import OWN_AXIS, SLOW_CONTROLS
 from .chosen_system import NORMAL, has_atlas, starting_launch, starting_z

@@ -80,18 +80,18 @@ def extract() -> list[Extract]:
 
 
 def _compile_everything() -> None:
-    from codim2_core.portrait.stepping import fields, psi_gain
+    from codim2_core.portrait.stepping import psi_gain, right_hand_side
     from codim2_core.systems.psi import FAMILIES, custom, hill, make
 
     from ...view.compiling.steps import warm_all
 
     for psi in (*(make(family.name) for family in FAMILIES.values() if not family.typed), hill(2.5), custom("1/(1+s)")):
         for smooth in (True, False):
-            fields.field(psi)
+            right_hand_side.field_of_psi(psi)
             psi_gain.gains(psi, smooth)
             psi_gain.gains_of_block(psi, smooth)
             psi_gain.one_gain(psi)
-    fields.field_of_gain()
+    right_hand_side.field_of_gain()
     psi_gain.gains_of_blocks()
     warm_all()
 

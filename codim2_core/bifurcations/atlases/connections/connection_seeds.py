@@ -10,8 +10,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from ....numerics.curves.polyline import feet
-from ....numerics.root_between import root_between
+from ....numerics.curves.arclength import feet
+from ....numerics.sign_changes import root_between
 from ....portrait.layer_problem.problem import LayerProblem
 from ....results.arrays import Array
 from ...continuation.section_base import correct_zero

@@ -7,9 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ....numerics.curves.arclength import StepBounds, square_edges, trace_curve, zero_between
-from ....numerics.curves.newton import newton
-from ....numerics.curves.polyline import feet
+from ....numerics.curves.arclength import StepBounds, feet, newton, square_edges, trace_curve, zero_between
 from ....results.arrays import Array
 from .connection_seeds import ConnectionSeed
 from .splitting import BranchPair, Splitting

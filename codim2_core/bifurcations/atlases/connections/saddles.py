@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from ....numerics.curves.newton import newton
+from ....numerics.curves.arclength import newton
 from ....portrait.layer_problem.critical import CriticalSet, set_at
 from ....portrait.layer_problem.eigendirections import to_disc
 from ....portrait.layer_problem.problem import LayerProblem

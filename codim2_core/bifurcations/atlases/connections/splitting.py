@@ -15,8 +15,8 @@ from functools import cached_property
 
 import numpy as np
 
-from ....portrait.cycles.heteroclinic_arcs import HeteroclinicArc, heteroclinic_arcs
 from ....portrait.cycles.heteroclinic_cycle import loop_gap
+from ....portrait.cycles.ray_section import HeteroclinicArc, heteroclinic_arcs
 from ....portrait.layer_problem.problem import LayerProblem
 from ....results.arrays import Array
 from ....systems.frozen import FrozenSystem

@@ -12,8 +12,7 @@ from copy import copy
 
 import numpy as np
 
-from ....portrait.cycles.ray import Ray
-from ....portrait.cycles.ray_section import HemispherePoint
+from ....portrait.cycles.ray_section import HemispherePoint, Ray
 from ....portrait.layer_problem.problem import LayerProblem
 from ....results.arrays import Array
 from ....systems.frozen import FrozenSystem

@@ -12,15 +12,14 @@ import numpy as np
 from ....numerics.curves.arclength import (
     CurveEdge,
     StepBounds,
+    newton,
     point_across,
     square_edges,
     tangent,
     trace_one_way,
     zero_between,
 )
-from ....numerics.curves.newton import newton
-from ....portrait.cycles.ray import crossing_qualities
-from ....portrait.cycles.ray_section import room
+from ....portrait.cycles.ray_section import crossing_qualities, room
 from ....portrait.layer_problem.critical import critical_sets
 from ....results.arrays import Array
 from ...continuation.section_base import e_at

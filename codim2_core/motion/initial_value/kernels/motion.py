@@ -12,8 +12,8 @@ import math
 from ....formulas.jit import held_kernel, kernel, spliced_kernel
 from ....numerics.radau import CAREFUL, FAILED_SHRINKAGE, GROWTH_AFTER_FAILURE, MAX_GROWTH, STAGES
 from . import explicit, radau
+from .radau import tableau_of, work_on
 from .rate import MotionConstants, blur_of_rate, inward_bound, rate, sizes
-from .stages import tableau_of, work_on
 
 FINISHED, LIMIT, SHORT, CHUNK_FULL, BLOWN_UP, UNDEFINED, AT_SIGMA, SWITCHED = range(8)
 FIRST_STEP_SHARE = 1e-2  # of rho/|U|: the first step tried
@@ -49,10 +49,7 @@ MIN_IMPLICIT_STEPS = 20.0  # implicit steps that a slide takes at least, about: 
 
 @kernel
 def arrived(rtol):
-    """Part of the largest rho of a slip at which it has arrived at Sigma: the rest of the way is straight.
-
-    What is left to turn on it, to a limit direction that attracts, is a small part of 1: rtol has room for it.
-    """
+    """Part of the largest rho of a slip at which it has arrived at Sigma: the rest of the way is straight."""
     return max(MIN_ARRIVAL_RADIUS, ARRIVAL_RTOL_SHARE * rtol)
 
 
@@ -131,10 +128,7 @@ def _turned_explicit(motion, clock, control, bound, reach):
 
 @kernel
 def integrate_motion(motion, table, work, y, clock, control, starts, lengths, ends, polynomials):
-    """Step until the time is over, the steps are used up, or the arrays are full.
-
-    Why it stopped, and how many steps were filled in. Shapes: y (n,).
-    """
+    """Step from y (n,) until the time, the steps or the arrays are used up: why it stopped, and steps filled in."""
     filled, fresh, begun, bound, reach, before_h = 0, True, False, math.inf, 0.0, 0.0
     while clock[2] - clock[0] - clock[1] > 0.0:
         if filled == len(starts):
@@ -220,10 +214,7 @@ def prepare_motion(motion, y, clock, control, t_start, t_end, most, work):
 
 @held_kernel
 def follow_steps(fields, numbers, coefficients, S, y, clock, control, starts, lengths, ends, polynomials):
-    """Follow one motion for as many steps as the arrays hold.
-
-    As of `integrate_motion`.
-    """
+    """Follow one motion for as many steps as the arrays hold, as `integrate_motion` says."""
     work, table = work_on(S, len(y)), tableau_of(coefficients)
     motion = MotionConstants(
         fields[0], fields[1], fields[2], len(y), numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], 0.0

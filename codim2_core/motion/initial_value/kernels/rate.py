@@ -94,10 +94,7 @@ def _modulus(motion, r, S):
 
 @kernel
 def jacobian(motion, y, S, J):
-    """Write the Jacobian of the rate at a state, right after its rate: S holds the arguments.
-
-    The derivative of |e_Psi| by r is a central difference: Newton's method is a simplified one, and asks no more.
-    """
+    """Write the Jacobian of the rate at a state, right after its rate: S holds the arguments."""
     n, r = motion.n, math.hypot(y[0], y[1])
     S[RADIUS], S[RADIUS + 1] = r * r, motion.eps
     call_field(motion.gain, S, RADIUS, GAIN, S)
@@ -137,10 +134,7 @@ def without_blur(motion, y, h, v1, v2, size):
 
 @kernel
 def blur_of_rate(motion, y, work):
-    """Return what rounding makes of the rate of x and y at a state: it counts where both are small.
-
-    That of z; and of e outside Sigma, where forces that friction holds almost cancel it.
-    """
+    """Return what rounding makes of the rate of x and y at a state: it counts where both are small."""
     rate(motion, y, work.S, work.rate)
     jacobian(motion, y, work.S, work.J)
     found, S = 0.0, work.S

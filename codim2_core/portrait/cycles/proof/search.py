@@ -13,9 +13,9 @@ from numpy.polynomial.polynomial import polyval2d
 from numpy.typing import NDArray
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
-from ....formulas.polynomial import Terms
+from ....formulas.arrays import Terms
 from ....results.arrays import Array
-from ....systems.psi.kernel import VECTOR
+from ....systems.psi.families.record import VECTOR
 from ...layer_problem.problem import LayerProblem
 from .result import FoundCycle
 
@@ -89,21 +89,7 @@ class ProbePoints:
 
 
 class ScaledLayerProblem:
-    """A layer problem with polynomials for U, in units of their largest coefficient, in a chart.
-
-    Attributes
-    ----------
-    given : tuple of dict
-        U1 and U2 as they are: the coefficient of c^i s^j by (i, j).
-    degree : int
-    chart : ndarray (3, 3)
-        With the one critical set that a closed orbit may surround at its middle; if there are more, with the first of
-        those that the cycles surround, or the middle of the disc.
-    back : ndarray (2, 2)
-        The rotation to the axes of `given`.
-    critical, starts : list of ndarray (2,)
-        The critical sets in these axes, and in the chart.
-    """
+    """A layer problem with polynomials for U, in units of their largest coefficient, in a chart."""
 
     def __init__(self, problem: LayerProblem, given: tuple[Terms, ...], cycles: Sequence[FoundCycle]) -> None:
         self.given, self.kernel = given, problem.psi.kernel

@@ -47,9 +47,17 @@ from ...typed import System
 from .. import formula_reading
 from ..formula_reading import FormulaRow, Given, GivenMatrix, GivenRow, Matrix
 from ..mechanism import Mechanism
-from .contact_parts import ContactParts, mechanisms, read_contacts, refuse_fast_names
 from .decision import Flags, decide_contacts
-from .field import ContactField, Law, contact_field, held_rank
+from .field import (
+    ContactField,
+    ContactParts,
+    Law,
+    contact_field,
+    held_rank,
+    mechanisms,
+    read_contacts,
+    refuse_fast_names,
+)
 from .result import ContactDecision, ContactMotion, ContactPhase, ContactStatus, contact_names
 from .run import HELD_SLIPS, ContactRun, NonsmoothRun, RegularisedRun
 

@@ -50,10 +50,7 @@ class Decided(NamedTuple):
 
 
 def decide_contacts(M: Array, Q: Array, J: Array, k: Array, r: Array) -> Decided:
-    """Return what contacts at their sets do.
-
-    Shapes: M (n, n), Q (n,).
-    """
+    """Return what contacts at their sets do, by M (n, n) and Q (n,)."""
     free = np.asarray(np.linalg.solve(M, Q), np.float64)
     if not len(J):
         return Decided(free, np.zeros((0, 2)), np.zeros((0, 2)), np.zeros(0, bool))

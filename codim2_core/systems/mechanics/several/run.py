@@ -16,10 +16,9 @@ from ....numerics.hybrid import PhaseRun
 from ....numerics.radau import STEP_SAFETY, MotionEndError, Step, tableau, truncate_step
 from ....results.arrays import Array
 from ....results.words import say
-from .collocation import Collocated, collocate
+from .collocation import Collocated, Inspection, Switch, collocate
 from .decision import AT_BOUND, Decided, Flags, decide_contacts
 from .field import ContactField, Law, Local, held_rank, held_rates, project_velocities
-from .inspection import Inspection, Switch
 from .result import contact_names
 
 FIRST_SHARE = 1e-3  # first step after an event, as a share of the span
@@ -290,10 +289,7 @@ class NonsmoothRun(ContactRun):
         self._release((self.sticks | self.departs) & (np.hypot(*self.field.at(self.state).x.T) <= self._near_set))
 
     def _bound(self, found: Collocated, last: float) -> float | None:
-        """Return the fraction of a step, up to `last`, at which a force that holds comes to its bound; or None.
-
-        Asked are the stages, and the least of the polynomial through what they answer.
-        """
+        """Return the fraction of a step, up to `last`, at which a force that holds comes to its bound; or None."""
         at = lambda u: self._margin(self.field.at(found.step.at(u)))
         nodes = np.array([0.0, *tableau().nodes])
         margins = np.array([self._margin(self.field.at(self.state)), *map(self._margin, found.stages)])

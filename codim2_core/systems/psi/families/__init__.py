@@ -71,10 +71,7 @@ def unregister(name: str) -> None:
 
 
 def family_of_name(name: str) -> Family:
-    """Return the family of a name.
-
-    Raises ValueError: There is none.
-    """
+    """Return the family of a name; ValueError where there is none."""
     if not isinstance(name, str) or name not in _families:
         raise ValueError(f"there is no family {reprlib.repr(name)} of Psi; choose one of {', '.join(_families)}.")
     return _families[name]

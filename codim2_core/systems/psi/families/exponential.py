@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..kernel import UNDERFLOW_BOUND, Kernel
-from .record import Array, Family
+from .record import UNDERFLOW_BOUND, Array, Family, Kernel
 
 
 @dataclass(frozen=True)

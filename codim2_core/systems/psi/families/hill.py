@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..condition import Condition
-from ..kernel import UNDERFLOW_BOUND, VECTOR, Kernel
-from .record import Array, Family, Parameter
+from .record import UNDERFLOW_BOUND, VECTOR, Array, Family, Kernel, Parameter
 
 SQRT3 = math.sqrt(3.0)
 LN3 = math.log(3.0)

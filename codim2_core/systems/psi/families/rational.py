@@ -6,8 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from ..kernel import UNDERFLOW_BOUND, Kernel
-from .record import Array, Family
+from .record import UNDERFLOW_BOUND, Array, Family, Kernel
 
 
 @dataclass(frozen=True)

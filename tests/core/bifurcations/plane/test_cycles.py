@@ -9,9 +9,9 @@ from scipy.integrate import quad
 from codim2_core import ELinear, bifurcations, branches, equator_cycle, psi
 from codim2_core.bifurcations.families.disc import corners as corner_angles
 from codim2_core.bifurcations.families.disc import saddle_node_force
-from codim2_core.portrait.cycles.heteroclinic_arcs import heteroclinic_arcs
 from codim2_core.portrait.cycles.heteroclinic_cycle import loop_gap
 from codim2_core.portrait.cycles.limit_cycles import limit_cycles
+from codim2_core.portrait.cycles.ray_section import heteroclinic_arcs
 from codim2_core.portrait.layer_problem.problem import LayerProblem
 from tests.core.polylines import away
 

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from codim2_core.formulas.functions import known
-from codim2_core.formulas.jit import numba_kernels, stamps
+from codim2_core.formulas.jit import disk_cache, numba_kernels
 from codim2_core.portrait.stepping.lanes import integrate
 
 FILES = {
@@ -30,20 +30,19 @@ def test_a_stamp_changes_with_all_that_a_module_imports_and_with_nothing_else(tm
     for name, text in FILES.items():
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text(text)
-    stamp = stamps.source_stamp(tmp_path / "kernels.py", tmp_path)
+    stamp = disk_cache.source_stamp(tmp_path / "kernels.py", tmp_path)
     (tmp_path / changed).write_text(FILES[changed] + "# changed\n")
-    stamps._read_module.cache_clear()
-    stamps.source_stamp.cache_clear()
-    assert (stamps.source_stamp(tmp_path / "kernels.py", tmp_path) != stamp) == (changed in PARTS)
+    disk_cache._read_module.cache_clear()
+    disk_cache.source_stamp.cache_clear()
+    assert (disk_cache.source_stamp(tmp_path / "kernels.py", tmp_path) != stamp) == (changed in PARTS)
 
 
 def test_numba_keeps_the_packages_kernels_under_that_stamp():
     compiled: Any = integrate
     path = Path(compiled.py_func.__code__.co_filename)
-    assert compiled._cache._cache_file._source_stamp == stamps.source_stamp(path)
-    assert (
-        stamps.CORE_FOLDER / "portrait" / "stepping" / "dop853.py" in stamps._read_module(path, stamps.CORE_FOLDER)[1]
-    )
+    assert compiled._cache._cache_file._source_stamp == disk_cache.source_stamp(path)
+    root = disk_cache.CORE_FOLDER
+    assert root / "portrait" / "stepping" / "dop853.py" in disk_cache._read_module(path, root)[1]
 
 
 def test_that_kernels_are_compiled_is_said_once_and_only_then(tmp_path):

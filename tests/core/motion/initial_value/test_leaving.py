@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from codim2_core import System
-from codim2_core.motion.initial_value.departure import leave
 from codim2_core.motion.initial_value.field import field
+from codim2_core.motion.limit.slip import leave
 
 
 @pytest.mark.parametrize("bend", [0.3, 5e4, -1e7])

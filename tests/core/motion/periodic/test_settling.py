@@ -5,7 +5,7 @@ import math
 import pytest
 
 from codim2_core import System, psi, reference
-from codim2_core.motion.periodic.settling import forcing_period, settled_motion
+from codim2_core.motion.periodic.search import forcing_period, settled_motion
 
 
 @pytest.mark.parametrize(

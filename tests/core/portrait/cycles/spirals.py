@@ -7,12 +7,11 @@ import pytest
 
 from codim2_core import psi
 from codim2_core.portrait.cycles.ray_section_kernel import first_turns
-from codim2_core.portrait.stepping.field_parameters import SHARED_SIZE
-from codim2_core.portrait.stepping.fields import field
-from codim2_core.portrait.stepping.layout import LANES
+from codim2_core.portrait.stepping.layout import LANES, SHARED_SIZE
+from codim2_core.portrait.stepping.right_hand_side import field_of_psi
 
 SEVERAL = 2 * LANES + 1
-FIELD = field(psi.constant())
+FIELD = field_of_psi(psi.constant())
 RTOL = 1e-12
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from codim2_core import ELinear, psi
-from codim2_core.portrait.cycles.equator_pull import EquatorPull, equator_pull
+from codim2_core.portrait.cycles.ray_section import EquatorPull, equator_pull
 from codim2_core.portrait.layer_problem.problem import LayerProblem
 
 QUARTERS = 0.5 * np.pi * np.arange(4)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.portrait.cycles.heteroclinic_arcs import heteroclinic_arcs
 from codim2_core.portrait.cycles.heteroclinic_cycle import loop_gap
+from codim2_core.portrait.cycles.ray_section import heteroclinic_arcs
 from codim2_core.portrait.layer_problem.problem import LayerProblem
 
 # a, b, d, f1, f2 with one arc each, found at random

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.portrait.cycles.ray import Ray
-from codim2_core.portrait.cycles.ray_section import COARSE_RTOL, FINE_RTOL, TurnSection
+from codim2_core.portrait.cycles.ray_section import COARSE_RTOL, FINE_RTOL, Ray, TurnSection
 from codim2_core.portrait.cycles.ray_section_kernel import OUTWARD, RETURNED, TO_CRITICAL_SET
 from codim2_core.portrait.layer_problem.problem import LayerProblem
 

@@ -7,7 +7,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import ELinear, equator_equilibria, psi
-from codim2_core.portrait.layer_problem.direction_names import cut_that_keeps_names
+from codim2_core.portrait.layer_problem.equator import cut_that_keeps_names
 from codim2_core.portrait.layer_problem.problem import LayerProblem
 
 TURN = 2.0 * math.pi

@@ -8,7 +8,7 @@ from hypothesis import example, given
 
 import codim2_core as c2
 from codim2_core.portrait.layer_problem.problem import LayerProblem
-from codim2_core.portrait.nullcline.direction_hyperbola import conics_of
+from codim2_core.portrait.nullcline.conics import conics_of
 from tests.core.strategies import systems
 
 VIEW = 2.0

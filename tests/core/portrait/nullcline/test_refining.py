@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from codim2_core import ELinear, System, psi
-from codim2_core.portrait.nullcline.view_refinement import MAX_BRANCH_POINTS
+from codim2_core.portrait.nullcline.nullclines import MAX_BRANCH_POINTS
 from codim2_core.scene import Scene
 
 HALF = 2.0  # half the width of the whole picture

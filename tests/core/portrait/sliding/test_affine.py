@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 
 import codim2_core as c2
-from codim2_core.portrait.sliding.affine import affine_plane
+from codim2_core.portrait.sliding.filippov import affine_plane
 from tests.core.strategies import coefficient, systems
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.portrait.sliding.slow_plane import directions_along, slow_plane
+from codim2_core.portrait.sliding.along_z import directions_along, slow_plane
 
 CRIT = 3.5 * 0.2 * c2.examples.GRAVITY  # of the ball with K = m = 1
 

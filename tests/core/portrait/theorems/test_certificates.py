@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from codim2_core import ELinear, System, examples, presets, psi
 from codim2_core.portrait.theorems.certificates import Verdict, certificates
-from codim2_core.portrait.theorems.psi_claims import psi_claims
+from codim2_core.portrait.theorems.sliding_claims import psi_claims
 from tests.core.general_systems import polynomials
 from tests.core.strategies import coefficient, regularisations, systems
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.motion.periodic.settling import forcing_period, settled_motion
+from codim2_core.motion.periodic.search import forcing_period, settled_motion
 
 from ...motion.periodic.closed_forms import Rotating
 

@@ -7,7 +7,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import examples, psi
-from codim2_core.systems.examples.offered import keys_at_contacts
+from codim2_core.systems.examples import keys_at_contacts
 
 CART = {"mu": 0.5, "m": 20.0, "k": 0.4, "a": 0.3, "b": 0.5, "j": 2.0, "g": 9.81}
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from codim2_core import System
-from codim2_core.motion.initial_value.kernels.departure_step import FAST_START, TILT, leave
+from codim2_core.motion.initial_value.kernels.slow import FAST_START, TILT, leave
 
 from .placing import placed
 

@@ -7,7 +7,7 @@ import pytest
 
 from codim2_core.motion.initial_value.field import field
 from codim2_core.motion.initial_value.kernels import radau
-from codim2_core.motion.initial_value.kernels.stages import tableau_of, work_on
+from codim2_core.motion.initial_value.kernels.radau import tableau_of, work_on
 from codim2_core.motion.initial_value.motion_steps import numbers_of_tableau, rate_at
 
 from .placing import CURVED, TANH, motion_of, placed
