@@ -261,6 +261,7 @@ MOTIONS = {
     "one way out": lambda told, fields: (leaves(told, fields), ways_out(told, {"count": 1})),
     "no way out": nothing_attracts,
     "several ways out": ways_out,
+    "cycle not seen": lambda told, _: len(c2.limit_cycles(told.system, told.psi, told.z())) == 0 or pytest.fail("seen"),
     "no z to follow": lambda told, _: told.system.m == 0 or pytest.fail("there is z"),
     "starts, follows nothing": goes_away,
     "starts, follows": follows,

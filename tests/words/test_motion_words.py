@@ -18,6 +18,7 @@ TWO_NODES = System(U=("-c*(c - 1/2)*(c + 1/2)", "-s"))
 SUBCRITICAL = System(U=("z*c - s + c*(c**2 + s**2)", "c + z*s + s*(c**2 + s**2)"), W=("1",))
 BUFFER = System(U=("z*(c - 0.3*z) - s/2 - c*(c**2 + s**2)", "(c - 0.3*z)/2 + z*s - s*(c**2 + s**2)"), W=("1",))
 CYCLE = System(U=("c - s - 2*c*(c**2 + s**2)", "c + s - 2*s*(c**2 + s**2)"))
+ON_A_CIRCLE = System(U=("4*c*(1/4 - c*c - s*s) - s*(z + 2*c)", "4*s*(1/4 - c*c - s*s) + c*(z + 2*c)"), W=("1",))
 CASES = {
     "focus": (ELinear(-1, 0.5, -1, (0.1, 0)), None, (1, 0.2), 3),
     "in a line": (ELinear(-1, 0, -1.5, (0.3, 0)), CONSTANT, (0.5, 0), 1),
@@ -37,6 +38,7 @@ CASES = {
     "spirals away": (ELinear(1, 3, 1, (0.2, 0)), CONSTANT, (0, 0), 5),
     "two nodes": (TWO_NODES, None, (0, 0), 1),
     "cycle": (CYCLE, CONSTANT, (0, 0), 1),
+    "to a cycle by a saddle-node on it": (ON_A_CIRCLE, CONSTANT, (-0.3, 0.05, 0.5), 3),
     "cycle, no psi": (CYCLE, None, (0, 0), 1),
     "one way out": (ELinear(-1, 0, -2, (3, 0)), None, (0, 0), 1),
     "saddle": (ELinear(1, 0, -1), None, (0, 0), 1),

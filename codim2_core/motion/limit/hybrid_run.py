@@ -327,9 +327,10 @@ class HybridRun(PhaseRun[Decision]):
         if not len(z):
             raise StopError(f"{decision.reason} {say('no z to follow')}")
         part = slide_on_cycle(self.system, self.own, index, self.t, z, self.t_end, self.left)
+        if part is None or self.switches_within(part.taken):
+            why = "cycle not seen" if part is None else "load switches on a cycle"
+            raise StopError(f"{decision.reason} {say(why)}")
         self.evaluations += part.evaluations
-        if self.switches_within(part.taken):
-            raise StopError(f"{decision.reason} {say('load switches on a cycle')}")
         self.add("slide", part.taken, decision.reason, decision.onto, part.places, part.p)
         if part.end == "time":
             return None

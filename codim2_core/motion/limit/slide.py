@@ -328,10 +328,15 @@ FIRST_CYCLE_STEP, MIN_CYCLE_STEP = 0.05, 1e-6
 OTHER_CYCLE_DISTANCE = 0.2  # in the disc: a cycle whose middle has moved further is another
 
 
-def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, t_end: float, most: int) -> Slide:
-    """Follow the averaged slow flow of a general system from z (m,)."""
+def slide_on_cycle(
+    system: AnySystem, psi: Psi, index: int, t: float, z: Array, t_end: float, most: int
+) -> Slide | None:
+    """Follow the averaged slow flow of a general system from z (m,); None if no such cycle is found there."""
     means: list[tuple[Array, Array]] = []
-    m, first = len(z), limit_cycles(system, psi, tuple(z.tolist()))[index]
+    m, there = len(z), limit_cycles(system, psi, tuple(z.tolist()))
+    if index >= len(there):
+        return None
+    first = there[index]
     middle = _centroid(first)
 
     def near(at: Array) -> LimitCycle | None:
