@@ -26,6 +26,7 @@ SHORTEST_SHARE = 1e-15  # of the span: shorter steps are given up
 HELD_SLIPS = 10.0  # in eps: a contact that slips less is held by friction
 MOST_GROWTH, LEAST_GROWTH = 6.0, 0.2  # of a step
 
+NO_SLIP = 1e-14  # of the largest velocity so far: a slip that rounding leaves, whose direction says nothing
 TO_ZERO = 0.9  # of the way to 0 that a slip may go in a step
 TURN = 0.5  # cosine of how far e may turn from stage to stage
 ARRIVED = 1e-9  # a slip that falls and is smaller is at its set; in units of velocities
@@ -314,7 +315,7 @@ class NonsmoothRun(ContactRun):
     def _arrived(self, here: Local) -> tuple[Flags, float] | None:
         """Return which contacts arrive at their sets, and in what time; None if none does."""
         change, size = here.J @ self.rate[: self.field.n] + here.k, np.hypot(*here.x.T)
-        falls = ((change * self.e).sum(axis=1) < 0.0) & ~self.sticks
+        falls = (((change * self.e).sum(axis=1) < 0.0) | (size <= NO_SLIP * self.speed)) & ~self.sticks
         near = self._near_set
         first = falls & (size <= near)
         if not first.any():
