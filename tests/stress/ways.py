@@ -14,7 +14,7 @@ import numpy as np
 
 import codim2_core as c2
 from codim2_core import psi
-from codim2_core.bifurcations.atlases.faces import inside_polygons
+from codim2_core.bifurcations.atlases.regions import inside_polygons
 from codim2_core.motion.compare_with_limit import agreement
 from tests.core.polylines import away
 

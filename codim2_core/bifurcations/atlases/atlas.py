@@ -18,10 +18,9 @@ from ...systems.kinds import AnySystem, as_elinear, in_axes_of, takes_names
 from ...systems.psi.function import Psi
 from ..families.disc import disc_family, force_matrix
 from ..families.family import Ranges, SystemFamily
-from .class_borders import class_borders
-from .codim_two_points import SpecialPlace, crossings, each_once
+from .class_borders import class_borders, undefined_borders
+from .codim_two_points import SpecialPlace, crossings, curve_numbers, each_once, places
 from .connections.connection_curves import KINDS, connection_curves
-from .curve_numbers import curve_numbers, places
 from .curves import border_curves, curves_of, parts_within
 from .cycles.cycle_curves import KIND, NEUTRAL_LOOP, cycle_curves
 from .degenerate_lines import DegenerateLine, degenerate_lines
@@ -30,7 +29,6 @@ from .regions import regions_of
 from .result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion
 from .seed_net import NO_SEEDS, CurveSeeds, seeds_near
 from .tracing import TracedCurves
-from .undefined_regions import undefined_borders
 
 __all__ = [
     "Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion", "atlas", "curves_over", "with_bifurcations_of_cycles",

@@ -11,7 +11,7 @@ import numpy as np
 from ...numerics.curves.arclength import TracedLine, distance, feet, point_across, zero_between
 from ...results.arrays import Array
 from ...results.special_kinds import DETERMINANT, HOPF, SPECIAL_KINDS, SpecialKind
-from ..families import conditions, plane_conditions
+from ..families import conditions
 from ..families.family import SystemFamily
 from ..families.first_lyapunov import lyapunov
 from . import codim_two_points, seed_net, tracing
@@ -59,7 +59,7 @@ def curves_of(
     elif family.affine:
         kept = [one for one in found.curves if one.kind != "transcritical" or not _singular(family, one)]
         found = TracedCurves(kept, found.unfinished)
-        singular = plane_conditions.singular_matrix(family)
+        singular = conditions.singular_matrix(family)
         more = tracing.in_the_plane("det A = 0", singular, seed_net.of_plane(singular))
     else:
         more = tracing.folds(family, cells[DETERMINANT.kind], seeds.within)
@@ -70,7 +70,7 @@ def curves_of(
             more += TracedCurves(real, of_kind.unfinished)
     meetings = codim_two_points.crossings([one for one in found.curves if one.kind == "saddle-node"], not closed_form)
     ends = [v[1:] for v in corners] + [one.plane for one in meetings]
-    neutral = plane_conditions.neutral_equator(family)
+    neutral = conditions.neutral_equator(family)
     turned = tracing.in_the_plane("neutral equator", neutral, seed_net.on_steps(neutral, turning))
     more += TracedCurves([_to_ends(one, ends) for one in turned.curves], turned.unfinished)
     more = _true(more, lines)

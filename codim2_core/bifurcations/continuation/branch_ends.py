@@ -1,4 +1,7 @@
-"""Name the beginning or end of a branch of cycles."""
+"""Name the beginning or end of a branch of cycles.
+
+`build_branch` makes the public branch from its points: folds and ends, as arrays.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +9,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -16,10 +19,43 @@ from ...portrait.cycles.ray_section import heteroclinic_arcs
 from ...portrait.layer_problem.problem import LayerProblem
 from ...results.arrays import Array
 from ...results.words import say
-from .branch_arrays import PointRow
-from .continuation_points import ReturnMapPoint
-from .result import CyclePoint
+from .result import CycleBranch, CyclePoint
 from .section_base import Problems, SectionBase
+from .turns import ReturnMapPoint
+
+#: Of one point: value, period, amplitude, exponent, and where the cycle crosses its section.
+PointRow = tuple[float, float, float, float, float, float]
+
+
+def point_row(turn: ReturnMapPoint) -> PointRow:
+    """Return the row of a closed turn."""
+    return turn.value, turn.period, turn.amplitude, turn.exponent, *turn.p
+
+
+def build_branch(
+    name: str, rows: Sequence[PointRow], folds: Sequence[ReturnMapPoint], start: CyclePoint, end: CyclePoint
+) -> CycleBranch:
+    """Make a branch of its rows in order, limits at ends that are no cycles among them."""
+    table = np.array(rows)
+    points = []
+    for t in folds:
+        text = say("branch folds", name=name, value=t.value)
+        points.append(CyclePoint("fold of cycles", t.value, t.period, t.amplitude, text))
+    exponent = np.ascontiguousarray(table[:, 3])
+    columns: dict[str, Any] = {
+        "value": table[:, 0],
+        "period": table[:, 1],
+        "amplitude": table[:, 2],
+        "exponent": exponent,
+        "multiplier": np.exp(np.clip(exponent, -700.0, 700.0)),
+        "stable": exponent < 0.0,
+        "section": table[:, 4:6],
+    }
+    for key, array in columns.items():
+        columns[key] = np.ascontiguousarray(array)
+        columns[key].flags.writeable = False
+    return CycleBranch(start=start, end=end, folds=tuple(points), **columns)
+
 
 #: Distance from a saddle, and ebar, at which a cycle that nears it all the time is all but a loop.
 LOOP_DISTANCE, EQUATOR_HEIGHT = 0.03, 0.03

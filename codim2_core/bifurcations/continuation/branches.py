@@ -23,7 +23,6 @@ from ...results.arrays import Array
 from ...results.words import say
 from ...systems.kinds import AnySystem
 from ...systems.psi.function import Psi
-from .branch_arrays import PointRow, build_branch, point_row
 from .branch_ends import (
     CANDIDATE_POINTS,
     LOOP_THROUGH_EQUATOR,
@@ -32,34 +31,36 @@ from .branch_ends import (
     BranchEnd,
     LastCycles,
     MarkedValue,
+    PointRow,
     at_loop,
     at_one_value,
+    build_branch,
     equator_end,
     hopf_end,
     loop_branch_end,
     loop_end,
     loop_value,
+    point_row,
     singular_end,
     slow_sequence,
-)
-from .continuation_points import (
-    ContinuationPoint,
-    ContinuationPoints,
-    ReturnMapPoint,
-    TurnGuess,
 )
 from .corrector import BranchTracer, ClosedTurn, distance
 from .homoclinic_detection import line_of, split_at_homoclinic
 from .known_cycles import KnownCycle, RayPiece, distance_along_ray, lies_beyond, passes, reverse_piece, some_cycles
 from .predictor_corrector import BAND_HEIGHT, trace_branch
 from .result import CycleBranch, CycleBranches, CyclePoint
-from .section_base import Problems, SectionBase, e_at
-from .turns import VariedRay
+from .section_base import Problems, SectionBase, e_at, searched_part
+from .turns import (
+    ContinuationPoint,
+    ContinuationPoints,
+    ReturnMapPoint,
+    TurnGuess,
+    VariedRay,
+)
 
 START_SHARES, START_HEIGHT = (1e-3, 1e-4), 0.05  # of the reach: where branches start at a set; ebar, at the equator
 CACHE_SIZE = 1024  # problems that are kept
 CENSUS_VALUES = 9  # values at which all cycles are looked for
-NARROW_SHARE, MARGIN_SHARE = 0.25, 0.05  # of the span: a narrower part is searched alone; of the part, around it
 NARROWEST_PART, MOST_BETWEEN = 1e-3, 24  # of the span, between special values; of these parts
 NEAR_SADDLE_NODE = 1.5e-3  # of the span
 TOLD_DISTANCE = 3e-3  # in (chi, nu), in which lines tell the direction of a branch
@@ -85,24 +86,8 @@ def continue_cycles(
         changed, family_psi, place = vary(system, psi, z, name, value)
         return LayerProblem(changed.at(place), family_psi)
 
-    part = searched_part(problem, span, marked)
+    part = searched_part(problem, span, [mark.value for mark in marked])
     return replace(BranchSearch(problem, name, part, limits(system, psi, name), marked).run(), span=span)
-
-
-def searched_part(problem: Problems, span: tuple[float, float], marked: Sequence[MarkedValue]) -> tuple[float, float]:
-    """Return the part of a span on which there may be cycles, if it is a narrow one: else the whole span."""
-    low, high = span
-    edges = sorted({low, high, *(mark.value for mark in marked if low < mark.value < high)})
-    inside = [(one, two) for one, two in pairwise(edges) if _may_have_cycles(problem(0.5 * (one + two)))]
-    if not inside or inside[-1][1] - inside[0][0] > NARROW_SHARE * (high - low):
-        return span
-    margin = MARGIN_SHARE * (inside[-1][1] - inside[0][0])
-    return max(low, inside[0][0] - margin), min(high, inside[-1][1] + margin)
-
-
-def _may_have_cycles(problem: LayerProblem) -> bool:
-    """Whether there is a critical set that a cycle may surround, and no theorem that forbids it."""
-    return any(C.kind != "saddle" for C in problem.critical) and excluding_theorem(problem) is None
 
 
 class BranchSearch:
@@ -440,8 +425,7 @@ class BranchSearch:
         for i, piece in enumerate(pieces):
             rows += [point_row(point.turn) for point in piece.trace.points[1 if i else 0 :]]
             folds += [piece.trace.points[k].turn for k in piece.trace.folds]
-        if end.limit is not None:
-            rows.append(end.limit)
+        rows += [] if end.limit is None else [end.limit]
         return build_branch(self.name, rows, folds, start.point, end.point)
 
 

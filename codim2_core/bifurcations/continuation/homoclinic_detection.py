@@ -12,9 +12,9 @@ import numpy as np
 
 from ...portrait.cycles.limit_cycles import surrounds
 from ...results.arrays import Array
-from .continuation_points import ContinuationPoint, ContinuationPoints, ReturnMapPoint, TurnGuess
 from .corrector import BranchTracer
 from .section_base import Problems
+from .turns import ContinuationPoint, ContinuationPoints, ReturnMapPoint, TurnGuess
 
 MAX_HALVINGS = 40  # of the step that leads over a loop
 LOOP_TOLERANCE = 1e-9  # of the span: how near to it that is

@@ -13,9 +13,9 @@ from ...numerics.curves.arclength import distance
 from ...portrait.cycles.limit_cycles import LimitCycle
 from ...results.arrays import Array
 from .branch_ends import BranchEnd
-from .continuation_points import ContinuationPoints, ReturnMapPoint, points_at_value, reversed_trace
 from .corrector import BranchTracer
 from .homoclinic_detection import line_of
+from .turns import ContinuationPoints, ReturnMapPoint, points_at_value, reversed_trace
 
 LOW_SHARE, ROUNDING_OF_HEIGHT = 3.0, 1e-7  # times the height of the last cycle; ebar that p tells
 SAME_PERIOD_SHARE, SAME_CYCLE_DISTANCE = 1e-5, 1e-4  # of the period, and of the disc: two cycles are one

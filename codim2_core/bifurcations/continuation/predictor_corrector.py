@@ -8,9 +8,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from .continuation_points import ContinuationPoint, ContinuationPoints, TurnGuess
-from .corrector import DIFFERENCE_STEP, MAX_LOG_Y, ArclengthCurve, BranchTracer, ClosedTurn, distance
-from .predictor import CurvePoint
+from .corrector import DIFFERENCE_STEP, MAX_LOG_Y, ArclengthCurve, BranchTracer, ClosedTurn, CurvePoint, distance
+from .turns import ContinuationPoint, ContinuationPoints, TurnGuess
 
 MAX_STEP = 0.03  # the longest step
 GROWTH, SHRINKAGE = 1.6, 0.4  # of steps

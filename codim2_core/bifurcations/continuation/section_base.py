@@ -1,14 +1,19 @@
-"""A point inside cycles, for each value of the parameter: a critical set that is followed, or one that stays."""
+"""A point inside cycles, for each value of the parameter: a critical set that is followed, or one that stays.
+
+And the part of a span in which there may be cycles.
+"""
 
 from __future__ import annotations
 
 import math
 from bisect import bisect
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from itertools import pairwise
 
 import numpy as np
 
 from ...numerics.curves.arclength import newton
+from ...portrait.cycles.limit_cycles import excluding_theorem
 from ...portrait.cycles.ray_section import HemispherePoint
 from ...portrait.layer_problem.problem import LayerProblem
 from ...results.arrays import Array
@@ -21,6 +26,7 @@ Problems = Callable[[float], LayerProblem]
 NEWTON_TOLERANCE, MAX_CORRECTION = 1e-9, 0.1
 MAX_HALVINGS = 12  # of the way to a value at which it is not found at once: after these it is where it was last
 MAX_RADIUS = 1.0 - 1e-9  # |e| of a critical set
+NARROW_SHARE, MARGIN_SHARE = 0.25, 0.05  # of the span: a narrower part is searched alone; of the part, around it
 
 
 class SectionBase:
@@ -101,3 +107,19 @@ def e_at(psi: Psi, x2: Array) -> Array:
     """Return (c, s) = e_Psi at a point x2: the inverse of `hemisphere_place`."""
     zeta = math.hypot(*x2)
     return np.asarray(x2 / max(zeta, 1e-300) * float(psi.modulus(zeta)))
+
+
+def searched_part(problem: Problems, span: tuple[float, float], marked: Sequence[float]) -> tuple[float, float]:
+    """Return the part of a span on which there may be cycles, if it is a narrow one: else the whole span."""
+    low, high = span
+    edges = sorted({low, high, *(value for value in marked if low < value < high)})
+    inside = [(one, two) for one, two in pairwise(edges) if _may_have_cycles(problem(0.5 * (one + two)))]
+    if not inside or inside[-1][1] - inside[0][0] > NARROW_SHARE * (high - low):
+        return span
+    margin = MARGIN_SHARE * (inside[-1][1] - inside[0][0])
+    return max(low, inside[0][0] - margin), min(high, inside[-1][1] + margin)
+
+
+def _may_have_cycles(problem: LayerProblem) -> bool:
+    """Whether there is a critical set that a cycle may surround, and no theorem that forbids it."""
+    return any(C.kind != "saddle" for C in problem.critical) and excluding_theorem(problem) is None

@@ -16,11 +16,20 @@ from ...systems.kinds import takes_a_b_d
 from ...systems.psi.constructors import constant
 from ...systems.psi.function import Psi
 from ..atlases.atlas import Atlas
-from ..atlases.cycles.fold_seeds import HALF_OFFSETS
+from ..atlases.cycles.cycle_curves import HALF_OFFSETS
 from ..families.disc import corners, cusps
 from .borders import PlaneMatrix, border_places, critical_lines, saddle_node_lines
-from .curve import BifurcationCurve, SpecialPoint, matrix, read_only_lines
-from .plane import border_atlas, connection_atlas, cycle_atlas, lines_of, plane_atlas
+from .curve import (
+    BifurcationCurve,
+    SpecialPoint,
+    border_atlas,
+    connection_atlas,
+    cycle_atlas,
+    lines_of,
+    matrix,
+    plane_atlas,
+    read_only_lines,
+)
 
 ON_ELLIPSE = 1e-7  # of |A^-1 f| - 1: on the ellipse
 SEED_LINES = 2 * len(HALF_OFFSETS)  # across half of the disc of critical sets, on which folds are looked for

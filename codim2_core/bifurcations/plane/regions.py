@@ -21,8 +21,7 @@ from ...systems.psi.constructors import constant
 from ..atlases.atlas import family_over
 from ..atlases.regions import faces_between
 from .borders import PlaneMatrix, coefficients_of
-from .curve import matrix
-from .plane import NAMES, border_atlas
+from .curve import NAMES, border_atlas, matrix
 
 PLANE_MARGIN = (
     0.15  # of the largest |f| on the borders, and of the largest entry: how far the plane goes on beyond them

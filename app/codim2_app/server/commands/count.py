@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import codim2_core as c2
-from codim2_core.bifurcations.census.draws import DRAWS
+from codim2_core.bifurcations.census.tally import DRAWS
 
 from ...picture.frame.dask_executor import ClusterError, dask_executor
 from .answers import add_psi

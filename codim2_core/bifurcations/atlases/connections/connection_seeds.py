@@ -16,10 +16,9 @@ from ....portrait.layer_problem.problem import LayerProblem
 from ....results.arrays import Array
 from ...continuation.section_base import correct_zero
 from ...families.family import SystemFamily
-from ..cycles.fold_seeds import marks
+from ..cycles.cycle_curves import marks
 from ..result import AtlasCurve
-from .saddles import ROUGH_RTOL, Branch, branches, lines_of
-from .splitting import BranchPair, Splitting, cycle_arcs, roughly
+from .splitting import ROUGH_RTOL, Branch, BranchPair, Splitting, branches, cycle_arcs, lines_of, roughly
 
 Known = Callable[[Array, BranchPair], bool]
 BranchTriple = tuple[int, int, int | None]  # of a branch that leaves, one that enters, and what a loop goes round

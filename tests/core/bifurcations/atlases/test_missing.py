@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.bifurcations.atlases.faces import inside_polygons
+from codim2_core.bifurcations.atlases.regions import inside_polygons
 from codim2_core.bifurcations.diagrams.classes import classes_over
 from codim2_core.numerics.curves.arclength import distance
 

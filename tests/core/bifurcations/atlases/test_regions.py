@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.bifurcations.atlases.faces import inside_polygons, middle, net_of
+from codim2_core.bifurcations.atlases.regions import inside_polygons, middle, net_of
 from codim2_core.bifurcations.diagrams.classes import classes_over
 
 QUADRATIC = c2.System(U=("mu*c**2 - c + s/3 - 0.2", "-s + k*c*s + 0.3*c"), parameters={"mu": 1.0, "k": 1.0})

@@ -11,9 +11,9 @@ from scipy.integrate import dblquad
 
 import codim2_core as c2
 from codim2_core.bifurcations.census.census import CHUNK_SYSTEMS, FEW
-from codim2_core.bifurcations.census.draws import normal, quadratic
 from codim2_core.bifurcations.census.names import IMPOSSIBLE, PORTRAIT_NAMES, _filter
 from codim2_core.bifurcations.census.table import interval
+from codim2_core.bifurcations.census.tally import normal, quadratic
 
 PSI = c2.psi.constant()
 

@@ -7,7 +7,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.bifurcations.atlases.atlas import curves_over, with_folds_of_cycles
-from codim2_core.bifurcations.atlases.cycles import cycle_curves, fold_seeds
+from codim2_core.bifurcations.atlases.cycles import cycle_curves
 
 RADIAL = c2.System(
     U=(
@@ -27,7 +27,7 @@ def folds(system, psi, *names_and_ranges):
 @pytest.fixture
 def no_lines(monkeypatch):
     """Only what begins at generalised Hopf points is followed: lines take seconds."""
-    monkeypatch.setattr(fold_seeds, "LINE_OFFSETS", ())
+    monkeypatch.setattr(cycle_curves, "LINE_OFFSETS", ())
 
 
 @pytest.mark.usefixtures("no_lines")
