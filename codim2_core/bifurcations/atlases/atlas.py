@@ -19,7 +19,7 @@ from ...systems.psi.function import Psi
 from ..families.disc import disc_family, force_matrix
 from ..families.family import Ranges, SystemFamily
 from .class_borders import class_borders, undefined_borders
-from .codim_two_points import SpecialPlace, crossings, curve_numbers, each_once, places
+from .codim_two_points import SpecialPlace, away_from, crossings, curve_numbers, each_once, places
 from .connections.connection_curves import KINDS, connection_curves
 from .curves import border_curves, curves_of, parts_within
 from .cycles.cycle_curves import KIND, NEUTRAL_LOOP, cycle_curves
@@ -139,7 +139,7 @@ def _atlas_of(
     met = [one for one in crossings(found.curves, not closed_form) if not any(line.holds(one.plane) for line in lines)]
     points = [
         AtlasPoint(one.kind, (float(at[0]), float(at[1])), one.sentence)
-        for one in each_once([*special, *met])
+        for one in each_once([*special, *away_from(special, met)])
         for at in [chart.values(one.plane)]
         if not closed_form or is_in_range(family, at)
     ]

@@ -75,6 +75,7 @@ def trace(family: SystemFamily, at: Array) -> float:
 
 
 SAME_POINT_DISTANCE = 1e-6  # of the ranges: points of one kind nearer to each other are one
+CORNER_DISTANCE = 1e-5  # and so near to a saddle-node on the equator nothing crosses
 MIN_END_DISTANCE = 1e-7  # and so far from an end of both curves they cross
 MAX_CORRECTION = 0.05  # that Newton's method may go from where two polylines cross
 ZERO_VALUE = 1e-9  # of a function along a curve, in units of the largest |U|: less is zero
@@ -262,6 +263,12 @@ def corners(found: Sequence[SpecialPlace]) -> list[Array]:
 
 def _is_same_place(one: Array, other: Array) -> bool:
     return bool(np.abs(_distances(one - other, 3)).max() < SAME_POINT_DISTANCE)
+
+
+def away_from(corners: Sequence[SpecialPlace], met: Sequence[SpecialPlace]) -> list[SpecialPlace]:
+    """Leave out crossings at a saddle-node on the equator: there curves meet, or end, at one place of the portrait."""
+    places = [one.plane for one in corners if one.kind == "saddle-node on the equator"]
+    return [one for one in met if not any(np.abs(one.plane - at).max() < CORNER_DISTANCE for at in places)]
 
 
 def each_once(found: Sequence[SpecialPlace]) -> list[SpecialPlace]:

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 import codim2_core as c2
+from codim2_core.bifurcations.atlases.atlas import curves_over
 from codim2_core.portrait.layer_problem.equator import equator_cycle
 from codim2_core.portrait.layer_problem.lyapunov import first_lyapunov
 from codim2_core.results.words import say
@@ -228,3 +229,15 @@ def test_where_a_symmetry_splits_a_critical_set_into_three():
     assert found.unfinished == ()
     assert not found.looked.unlike
     assert np.abs(curve.numbers + 1.0).max() == 0.0  # tr DU = -1 there: T = -1 + bend s^2, by Psi = tanh above -1
+
+
+@pytest.mark.parametrize("n", [2.0, 3.0, 4.0])
+def test_nothing_crosses_where_curves_end_at_one_place_of_the_equator(n):
+    """At f and at -f the same happens: what ends at a saddle-node on the equator crosses nothing there."""
+    found = curves_over(c2.ELinear(172, 186, -200), c2.psi.hill(n), "f1", "f2", ((-400, 400), (-400, 400)))
+    of = {kind: np.array([p.place for p in found.points if p.kind == kind]).reshape(-1, 2) for kind in
+          ("crossing", "saddle-node on the equator")}  # fmt: skip
+    corners, crossed = of["saddle-node on the equator"], of["crossing"]
+    assert len(corners) >= 2
+    assert np.abs(crossed[:, None] - corners).max(axis=2).min() > 1e-2
+    assert np.abs(crossed[:, None] + crossed).max(axis=2).min(axis=1).max() < 1e-4
