@@ -21,8 +21,7 @@ from ...results.special_kinds import DETERMINANT, SPECIAL_KINDS
 from ...systems.psi.constructors import many
 from ..diagrams.classes import classes_over
 from ..families.family import MAX_RADIUS_SQUARED, MIN_RADIUS_SQUARED, SystemFamily
-from .degenerate_lines import ON_LINE_DISTANCE as BESIDE
-from .degenerate_lines import DegenerateLine, drop_touching
+from .degenerate_lines import ON_LINE_DISTANCE, DegenerateLine, drop_touching
 
 EQUATOR_CELLS, PARAMETER_CELLS = 64, 24  # cells round the equator, and along both parameters next to them
 INTERIOR_CELLS = 16  # cells along each of c, s, u and v
@@ -82,7 +81,7 @@ def _drop_degenerate(steps: Array, lines: Sequence[DegenerateLine]) -> Array:
     """Leave out steps (k, 2, 2) that come to a degenerate line."""
     for line in lines:
         away = steps[..., line.axis] - line.at
-        steps = steps[(away.min(axis=1) > BESIDE) | (away.max(axis=1) < -BESIDE)]
+        steps = steps[(away.min(axis=1) > ON_LINE_DISTANCE) | (away.max(axis=1) < -ON_LINE_DISTANCE)]
     return steps
 
 

@@ -1,6 +1,7 @@
 """Where compiled kernels are looked for: in the folder that a host has warmed, also where it cannot be written."""
 
 import os
+import pickle
 import shutil
 import subprocess
 import sys
@@ -108,3 +109,16 @@ def test_without_numba_kernels_run_as_python():
         check=False,
     )  # fmt: skip
     assert done.stdout == "1\n", done.stderr
+
+
+def test_an_index_that_names_a_module_which_has_moved_is_passed_over(tmp_path):
+    """As after an upgrade in place: Numba reads the whole index before it looks at its stamp."""
+    disk_cache.prepare()
+    index = caching.IndexDataCacheFile(str(tmp_path), "kernel", "stamp")
+    index.save("signature", b"")
+    path, whole = Path(index._index_path), Path(index._index_path).read_bytes()
+    assert index._load_index()
+    path.write_bytes(pickle.dumps(index._version, protocol=-1) + b"ccodim2_core.moved\nThing\n.")
+    assert index._load_index() == {}
+    path.write_bytes(whole)
+    assert index._load_index()
