@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Python the same
     from . import bifurcations
-    from .bifurcations.atlases.atlas import Atlas, AtlasCurve, AtlasPoint, AtlasRegion, atlas
-    from .bifurcations.census.census import census
-    from .bifurcations.census.table import Census
-    from .bifurcations.diagrams.bifurcation_diagram import branches
+    from .bifurcations.atlases.atlas import Atlas, AtlasCurve, AtlasPoint, atlas
+    from .bifurcations.atlases.result import AtlasRegion
+    from .bifurcations.census.census import Census, census
+    from .bifurcations.diagrams.equilibrium_branches import branches
     from .bifurcations.diagrams.result import Branches
     from .motion import reference
     from .motion.contact_events import contact_events
@@ -26,7 +26,7 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .motion.periodic.search import periodic_motion
     from .motion.result import Phase, Simulation, SimulationStatus
     from .motion.simulate import simulate, simulate_nonsmooth
-    from .motion.variation.result import Variation
+    from .motion.variation.propagators import Variation
     from .portrait.approach_outcomes import approach_outcomes
     from .portrait.basins import Basins, basins
     from .portrait.classify import Classification, Degeneracy, classify
@@ -34,8 +34,9 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .portrait.cycles.limit_cycles import LimitCycle, LimitCycles, limit_cycles
     from .portrait.cycles.proof.result import Proof
     from .portrait.layer_problem import hemisphere
+    from .portrait.layer_problem.closed_equator import EquatorCycle, equator_cycle
     from .portrait.layer_problem.critical import CriticalSet, critical_sets
-    from .portrait.layer_problem.equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
+    from .portrait.layer_problem.equator import EquatorEquilibria, equator_equilibria
     from .portrait.nullcline.nullclines import NullclineBranch, nullclines
     from .portrait.orbits.trajectories import Trajectories, trajectories
     from .portrait.separatrices import Separatrices, Separatrix, separatrices
@@ -79,10 +80,10 @@ _MODULES = {
     "reference": "motion.reference",
 }
 _HOMES = {
-    "bifurcations.atlases.atlas": "Atlas AtlasCurve AtlasPoint AtlasRegion atlas",
-    "bifurcations.census.census": "census",
-    "bifurcations.census.table": "Census",
-    "bifurcations.diagrams.bifurcation_diagram": "branches",
+    "bifurcations.atlases.atlas": "atlas",
+    "bifurcations.atlases.result": "Atlas AtlasCurve AtlasPoint AtlasRegion",
+    "bifurcations.census.census": "Census census",
+    "bifurcations.diagrams.equilibrium_branches": "branches",
     "bifurcations.diagrams.result": "Branches",
     "motion.contact_events": "contact_events",
     "motion.delay": "Delay",
@@ -94,7 +95,7 @@ _HOMES = {
     "motion.periodic.search": "periodic_motion",
     "motion.result": "Phase Simulation SimulationStatus",
     "motion.simulate": "simulate simulate_nonsmooth",
-    "motion.variation.result": "Variation",
+    "motion.variation.propagators": "Variation",
     "portrait.approach_outcomes": "approach_outcomes",
     "portrait.basins": "Basins basins",
     "portrait.classify": "Classification Degeneracy classify",
@@ -102,7 +103,8 @@ _HOMES = {
     "portrait.cycles.limit_cycles": "LimitCycle LimitCycles limit_cycles",
     "portrait.cycles.proof.result": "Proof",
     "portrait.layer_problem.critical": "CriticalSet critical_sets",
-    "portrait.layer_problem.equator": "EquatorCycle EquatorEquilibria equator_cycle equator_equilibria",
+    "portrait.layer_problem.closed_equator": "EquatorCycle equator_cycle",
+    "portrait.layer_problem.equator": "EquatorEquilibria equator_equilibria",
     "portrait.nullcline.nullclines": "NullclineBranch nullclines",
     "portrait.orbits.trajectories": "Trajectories trajectories",
     "portrait.separatrices": "Separatrices Separatrix separatrices",

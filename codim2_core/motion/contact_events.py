@@ -13,10 +13,8 @@ from ..systems.arguments import psi as read_psi
 from ..systems.kinds import PsiLike
 from ..systems.mechanics.mechanism import Mechanism
 from ..systems.psi.function import Psi
-from .argument_checks import checked_state
 from .initial_value.events import Event
-
-__all__ = ["contact_events"]
+from .simulate import checked_state
 
 
 @dataclass(frozen=True)

@@ -26,12 +26,12 @@ from ..results.arrays import Array
 from ..systems.psi.function import Psi, smoothed_direction
 from .initial_value.field import Field
 from .initial_value.functions import functions_of
-from .initial_value.inspection import CONTACT, Inspection
 from .initial_value.line import InvariantLine
+from .initial_value.motion_steps import CONTACT, Inspection
 from .initial_value.slow_manifold import solve_critical
 from .initial_value.slow_steps import critical_sets_near, steps_of_z
 from .limit.delay import Growth, NotAnalyticError
-from .tracked_set import inverse_gain
+from .locations import inverse_gain
 
 CLOSE = 1e-4  # w, below which the flow near the manifold is linear
 DEEP = math.log(1e-6)  # log w: where it is larger, ordinary steps resolve it

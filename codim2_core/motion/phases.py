@@ -23,9 +23,8 @@ from ..systems.kinds import AnySystem
 from ..systems.psi.function import Psi
 from .initial_value.field import Field, field
 from .limit.sigma_decision import critical_name, decide_from_hemisphere
-from .locations import OfState
+from .locations import OfState, TrackedSet, followed_critical_set, place_on_hemisphere
 from .result import Phase
-from .tracked_set import TrackedSet, followed_critical_set, place_on_hemisphere
 
 CONTACT_RADIUS = 20.0  # r in units of eps within which a motion is in contact with Sigma
 FOLLOWING_RADIUS = 3.0  # and from which on what it follows then is said to begin: |p| < 0.95

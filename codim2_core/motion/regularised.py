@@ -30,10 +30,9 @@ from ..systems.psi.function import Psi, smoothed_direction
 from .initial_value.events import Event, EventWatch, reverse_event
 from .initial_value.field import Field, backwards, field, slopes_of
 from .initial_value.functions import functions_of
-from .initial_value.inspection import Inspection
 from .initial_value.kernels.motion import UNDEFINED
 from .initial_value.line import InvariantLine, invariant_line
-from .initial_value.motion_steps import MotionSteps, rate_at
+from .initial_value.motion_steps import Inspection, MotionSteps, rate_at
 from .passage import Passage
 from .phases import phases_of
 from .result import Simulation, SimulationStatus, simulation

@@ -21,7 +21,7 @@ from .delay import Delay
 from .locations import NO_POINTS, Ascent, Location
 
 if TYPE_CHECKING:
-    from .variation.result import Variation
+    from .variation.propagators import Variation
 
 
 from numpy.typing import NDArray

@@ -36,12 +36,9 @@ from .outcome_verdicts import (
     OUTER_ANGLES,
     OutcomeVerdict,
     add_slow_flow,
-    begin_arrival_orbits,
     judge_arrivals,
     judge_equator_spirals,
 )
-
-__all__ = ["approach_outcomes"]
 
 AT_ZERO = 1e-9  # angle to a limit direction that counts as that direction
 
@@ -300,11 +297,10 @@ def _direction_outcomes(asked: _OutcomeQuestion, indices: Sequence[int]) -> tupl
     own, others, sensitive = asked
     equator = own.equator
     which = [i for i in indices if not radially_neutral(equator, i) and equator.lambda_rho[i] < 0.0]
-    problems = {problem.psi: problem for problem in (own, *others)}  # the own Psi may be one of the others
-    lines = begin_arrival_orbits(list(problems.values()), which)
+    problems = {problem.psi: problem for problem in (*others, own)}  # the own Psi may be one of the others
     arrivals = {
-        problem.psi: judge_arrivals(problem, which, begun, ARRIVAL_ANGLES if problem is own else OUTER_ANGLES)
-        for problem, begun in zip(problems.values(), lines, strict=True)
+        psi: judge_arrivals(problem, which, ARRIVAL_ANGLES if problem is own else OUTER_ANGLES)
+        for psi, problem in problems.items()
     }
     judged = {i: [arrivals[problem.psi][k] for problem in (own, *others)] for k, i in enumerate(which)}
     texts = [other.psi.words for other in others]

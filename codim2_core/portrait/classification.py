@@ -16,9 +16,9 @@ from ..results.result import Result, Tabled, result_rows
 from ..results.tables import paragraphs
 from ..results.words import SENTENCES, count_word, power, say, subscript, written_label
 from .cycles.limit_cycles import LimitCycle, surrounds
-from .layer_problem.closed_equator import NEUTRAL_EQUATOR
+from .layer_problem.closed_equator import NEUTRAL_EQUATOR, EquatorCycle
 from .layer_problem.critical import CriticalSet
-from .layer_problem.equator import EquatorCycle, EquatorEquilibria, arcs_of
+from .layer_problem.equator import EquatorEquilibria, arcs_of
 from .omega_limits import critical_label, radially_neutral_ones
 
 

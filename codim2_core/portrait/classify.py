@@ -23,11 +23,11 @@ from .classification import (
     undecided_degeneracy,
 )
 from .cycles.limit_cycles import closed_orbits
+from .layer_problem.closed_equator import EquatorCycle
 from .layer_problem.critical import CriticalSet
 from .layer_problem.disc_zeros import DiscZeros, disc_zeros
-from .layer_problem.equator import EquatorCycle, EquatorEquilibria, arcs_of
-from .layer_problem.linearisation import NEUTRAL_TRACE, matrix_determinant
-from .layer_problem.location import Existence, Location
+from .layer_problem.equator import EquatorEquilibria, arcs_of
+from .layer_problem.linearisation import NEUTRAL_TRACE, Existence, Location, matrix_determinant
 from .layer_problem.problem import LayerProblem, found_once
 from .omega_limits import radially_neutral_ones
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import itertools
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
 
@@ -12,8 +12,6 @@ import numpy as np
 
 from ..results.arrays import Array
 from ..results.words import say, written_label, written_number
-from ..systems.frozen import FrozenSystem
-from ..systems.psi.function import Psi
 from .cycles.limit_cycles import cycles_of, reason_for_none
 from .layer_problem.problem import LayerProblem
 from .omega_limits import (
@@ -29,29 +27,9 @@ from .omega_limits import (
     radially_neutral,
     radially_neutral_ones,
 )
-from .orbits.departures import departures_under
 from .orbits.result import Status, Trajectories
-from .orbits.seeds import DEFAULT_MAX_STEPS, Stepping, stepping
-from .orbits.trajectories import in_lanes, integrate_explicitly
-
-
-def batch_by_psi(
-    at: FrozenSystem, psis: Sequence[Psi], states: Sequence[Array], options: Stepping
-) -> list[Trajectories]:
-    """Follow states (k, 3) of the hemisphere under several Psi side by side, explicitly; typed ones by themselves."""
-    every = range(len(psis))
-    some = [i for i in every if not psis[i].record.typed]
-    if len(some) < 2:
-        some = []
-    found = {
-        i: integrate_explicitly(at, psis[i], states[i], _is_inside_disc(states[i]), options)
-        for i in every
-        if i not in some
-    }
-    if some:
-        lines = _blocks(at, [psis[i] for i in some], [states[i] for i in some], options)
-        found.update(zip(some, lines, strict=True))
-    return [found[i] for i in every]
+from .orbits.seeds import DEFAULT_MAX_STEPS, departures, stepping
+from .orbits.trajectories import integrate_explicitly
 
 
 def states_at(points: Array) -> Array:
@@ -59,23 +37,6 @@ def states_at(points: Array) -> Array:
     from .stepping.layout import states_of
 
     return states_of(np.array(points, order="C"))[0]
-
-
-def _is_inside_disc(states: Array) -> Array:
-    return np.full(len(states), -1.0)
-
-
-def _blocks(at: FrozenSystem, psis: Sequence[Psi], states: Sequence[Array], options: Stepping) -> list[Trajectories]:
-    from .stepping.layout import BLOCKS
-    from .stepping.right_hand_side import problems
-
-    found: list[Trajectories] = []
-    for first in range(0, len(psis), BLOCKS):
-        some = slice(first, first + BLOCKS)
-        every = np.concatenate(states[some])
-        until = list(itertools.accumulate(map(len, states[some])))
-        found += in_lanes(at, problems(at, psis[some], options.backward), every, _is_inside_disc(every), until, options)
-    return found
 
 
 class OutcomeVerdict(NamedTuple):
@@ -114,62 +75,12 @@ def omega_limits_of(problem: LayerProblem, lines: Trajectories) -> list[OmegaLim
     )
 
 
-def orbits_to_end(problem: LayerProblem, points: Array) -> Trajectories:
-    """Follow points of the picture (k, 2) until they have ended somewhere."""
-    return _orbits_to_end(problem, partial(states_at, points), None)
-
-
-def from_equator(
-    problem: LayerProblem,
-    which: Sequence[int],
-    wide: Sequence[int] = (),
-    lines: Trajectories | None = None,
-    angles: Array = ARRIVAL_ANGLES,
-) -> Trajectories:
-    """Follow orbits that leave some limit directions (from 0), and those around wide ones; `lines`: early parts."""
-    return _orbits_to_end(problem, lambda: _leaving_states([problem], which, wide, [angles])[0], lines)
-
-
-def _leaving_states(
-    problems: Sequence[LayerProblem], which: Sequence[int], wide: Sequence[int], angles: Sequence[Array]
-) -> list[Array]:
-    """States of the orbits that leave limit directions under each Psi, and of those around the wide ones."""
-    one, psis = problems[0], [problem.psi for problem in problems]
-    leaving = departures_under(one.at, psis, one.equator.theta[list(which)], RTOL, backward=False)
-    return [
-        np.concatenate([states, states_at(_points_around(one, wide, own))]) if wide else states
-        for states, own in zip(leaving, angles, strict=True)
-    ]
-
-
-def _options(problem: LayerProblem, early: bool) -> Stepping:
-    """Say how orbits are followed: as long as it takes, or `early` to where samples may tell where they will end."""
-    limit = DEFAULT_MAX_STEPS
-    if early and problem.at.as_given is not None:
-        limit = (
-            UNSTABLE_STEP_LIMIT
-            if problem.critical and all(C.kind.startswith("unstable") for C in problem.critical)
-            else EARLY_STEP_LIMIT
-        )
+def orbits_to_end(problem: LayerProblem, states: Array) -> Trajectories:
+    """Follow states (k, 3) of the hemisphere until they have ended, or samples tell where orbits round C will end."""
+    hemisphere = np.full(len(states), -1.0)
     time = drawn_time(problem.at, problem.equator)
-    return stepping(time, RTOL, 0.1 * RTOL, capture=CAPTURE, samples="ends", step_limit=limit)
-
-
-def begin_orbits(problems: Sequence[LayerProblem], states: Sequence[Array]) -> list[Trajectories]:
-    """Follow orbits of one system under several Psi, those of each problem, side by side: the early part of them."""
-    options = [_options(problem, early=True) for problem in problems]
-    found: dict[int, Trajectories] = {}
-    for option in dict.fromkeys(options):
-        some = [i for i, own in enumerate(options) if own == option]
-        lines = batch_by_psi(problems[0].at, [problems[i].psi for i in some], [states[i] for i in some], option)
-        found.update(zip(some, lines, strict=True))
-    return [found[i] for i in range(len(problems))]
-
-
-def _orbits_to_end(problem: LayerProblem, states: Callable[[], Array], lines: Trajectories | None) -> Trajectories:
-    """Follow orbits until they have ended, or go round and round and samples tell where they will end."""
-    if lines is None:
-        (lines,) = begin_orbits([problem], [states()])
+    options = stepping(time, RTOL, 0.1 * RTOL, capture=CAPTURE, samples="ends", step_limit=_early_limit(problem))
+    lines = integrate_explicitly(problem.at, problem.psi, states, hemisphere, options)
     if problem.at.as_given is None:
         return lines
     cut = [
@@ -182,7 +93,17 @@ def _orbits_to_end(problem: LayerProblem, states: Callable[[], Array], lines: Tr
     ]
     if not cut or None not in predicted_limit_sets(problem, lines.ends[cut]):
         return lines
-    return batch_by_psi(problem.at, [problem.psi], [states()], _options(problem, early=False))[0]
+    whole = replace(options, step_limit=DEFAULT_MAX_STEPS)
+    return integrate_explicitly(problem.at, problem.psi, states, hemisphere, whole)
+
+
+def _early_limit(problem: LayerProblem) -> int:
+    """Return the number of steps after which samples may tell where orbits will end; of all where none are asked."""
+    if problem.at.as_given is None:
+        return DEFAULT_MAX_STEPS
+    critical = problem.critical
+    unstable = bool(critical) and all(C.kind.startswith("unstable") for C in critical)
+    return UNSTABLE_STEP_LIMIT if unstable else EARLY_STEP_LIMIT
 
 
 def _ending_label(end: OmegaLimit) -> str:
@@ -258,37 +179,27 @@ def _points_around(problem: LayerProblem, wide: Sequence[int], angles: Array = A
     return around.reshape(-1, 2)
 
 
-def begin_arrival_orbits(problems: Sequence[LayerProblem], which: Sequence[int]) -> list[Trajectories | None]:
-    """Integrate the early part of the orbits of `judge_arrivals` under several Psi side by side; None without any."""
-    if not which:
-        return [None] * len(problems)
-    follow = [not _all_end_on_C(problem) for problem in problems]
-    some = list(itertools.compress(problems, follow))
-    angles = [ARRIVAL_ANGLES if problem is problems[0] else OUTER_ANGLES for problem in some]
-    lines = iter(begin_orbits(some, _leaving_states(some, which, _wide(problems[0], which), angles)) if some else ())
-    return [next(lines) if one else None for one in follow]
-
-
-def judge_arrivals(
-    problem: LayerProblem, which: Sequence[int], lines: Trajectories | None = None, angles: Array = ARRIVAL_ANGLES
-) -> list[OutcomeVerdict]:
+def judge_arrivals(problem: LayerProblem, which: Sequence[int], angles: Array = ARRIVAL_ANGLES) -> list[OutcomeVerdict]:
     """Judge what arrives at some limit directions (from 0), where lambda_rho < 0: all orbits side by side."""
     if not which:
         return []
-    if lines is None and _all_end_on_C(problem):
+    if _all_end_on_C(problem):
         C = problem.critical[0]
         return [
             OutcomeVerdict("slide", "C", None, C.slow_flow, say("slides", label=written_label("C"), kind=C.kind))
         ] * len(which)
     wide, count = _wide(problem, which), len(angles)
-    found = omega_limits_of(problem, from_equator(problem, which, wide, lines, angles))
+    states = departures(problem.at, problem.psi, problem.equator.theta[list(which)], RTOL, backward=False)
+    if wide:
+        states = np.concatenate([states, states_at(_points_around(problem, wide, angles))])
+    found = omega_limits_of(problem, orbits_to_end(problem, states))
     mains, neighbours = found[: len(which)], found[len(which) :]
     fans = {i: neighbours[k * count : (k + 1) * count] for k, i in enumerate(wide)}
     judged = []
     for i, main in zip(which, mains, strict=True):
         fan = fans.get(i, [])
         if fan and count < len(ARRIVAL_ANGLES) and len({main.label, *(end.label for end in fan)}) == 1:
-            fan = omega_limits_of(problem, orbits_to_end(problem, _points_around(problem, [i])))
+            fan = omega_limits_of(problem, orbits_to_end(problem, states_at(_points_around(problem, [i]))))
         judged.append(judge(problem, [main, *fan], "A whole family of orbits leaves Q" if i in fans else ""))
     return judged
 
@@ -299,4 +210,4 @@ def judge_equator_spirals(
     """Judge what leaves the equator at all angles."""
     angle = 2.0 * math.pi * np.arange(8) / 8.0
     ring = 0.9995 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    return judge(problem, omega_limits_of(problem, orbits_to_end(problem, ring)), many)
+    return judge(problem, omega_limits_of(problem, orbits_to_end(problem, states_at(ring))), many)

@@ -19,8 +19,6 @@ from .omega_limits import drawn_time, radially_neutral
 from .orbits.seeds import PIXEL
 from .separatrix_branches import Separatrices, Separatrix, bent_branch, branches_inside, outside_half_saddle, ray
 
-__all__ = ["Separatrices", "Separatrix", "separatrices"]
-
 
 def _gap(one: Array, other: Array) -> float:
     """Distance of the middle of `other`, by arc length, from the polyline `one`."""

@@ -25,10 +25,9 @@ from ..portrait.omega_limits import (
     omega_limits,
     radially_neutral_ones,
 )
-from ..portrait.orbits.both_directions import Orbits, drawn_duration, is_stiff
 from ..portrait.orbits.result import Status, Trajectories
 from ..portrait.orbits.seeds import ring, structured_seeds, window_seeds
-from ..portrait.orbits.trajectories import concatenate, continuation, trajectories
+from ..portrait.orbits.trajectories import Orbits, concatenate, continuation, drawn_duration, is_stiff, trajectories
 from ..results.arrays import Array
 from ..results.result import Pictured
 from ..results.tables import html_table, point

@@ -15,7 +15,7 @@ import numpy as np
 
 import codim2_core as c2
 from codim2_core import psi
-from codim2_core.motion.initial_value.inspection import Inspection
+from codim2_core.motion.initial_value.motion_steps import Inspection
 
 TURNS, MS = 41, 1e3
 BUDGET = 0.3  # of a motion without

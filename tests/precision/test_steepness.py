@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from codim2_core import psi
-from codim2_core.portrait.layer_problem.lyapunov import psi_derivatives
+from codim2_core.bifurcations.families.first_lyapunov import psi_derivatives
 
 from .reference import DIGITS, regularisation
 from .samples import FAMILIES, STEEP

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from codim2_core.bifurcations.census.census import census
-from codim2_core.bifurcations.census.table import CensusRow
+from codim2_core.bifurcations.census.census import CensusRow, census
 from codim2_core.portrait.classify import portrait_name
 from codim2_core.portrait.layer_problem.problem import LayerProblem
 from codim2_core.systems.elinear import ELinear

@@ -23,18 +23,11 @@ from .codim_two_points import SpecialPlace, away_from, crossings, curve_numbers,
 from .connections.connection_curves import KINDS, connection_curves
 from .curves import border_curves, curves_of, parts_within
 from .cycles.cycle_curves import KIND, NEUTRAL_LOOP, cycle_curves
-from .degenerate_lines import DegenerateLine, degenerate_lines
 from .disc_atlas import clip_curve, curves_with_images, family_around_disc, is_in_range, points_with_images
 from .regions import regions_of
-from .result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion
-from .seed_net import NO_SEEDS, CurveSeeds, seeds_near
+from .result import Atlas, AtlasCurve, AtlasPoint
+from .seed_net import NO_SEEDS, CurveSeeds, DegenerateLine, degenerate_lines, seeds_near
 from .tracing import TracedCurves
-
-__all__ = [
-    "Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion", "atlas", "curves_over", "with_bifurcations_of_cycles",
-    "with_connections", "with_folds_of_cycles", "with_regions",
-]  # fmt: skip
-
 
 #: Where U is tried, in the unit square.
 TRIAL_PLACES = (0.5, 0.5), (0.21, 0.33), (0.83, 0.27), (0.29, 0.79), (0.71, 0.89)

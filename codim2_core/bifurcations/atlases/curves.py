@@ -16,8 +16,7 @@ from ..families.family import SystemFamily
 from ..families.first_lyapunov import lyapunov
 from . import codim_two_points, seed_net, tracing
 from .codim_two_points import ZERO_VALUE, SpecialPlace
-from .degenerate_lines import DegenerateLine
-from .seed_net import NO_SEEDS, CurveSeeds
+from .seed_net import NO_SEEDS, CurveSeeds, DegenerateLine
 from .tracing import TracedCurve, TracedCurves
 
 LAST_STEP = 0.04  # of the ranges: last step of the curve of a neutral equator, whose mean takes ever more angles

@@ -11,8 +11,6 @@ from ...results.paper import cite, label_of
 from ...results.result import Pictured, Tabled, result_rows
 from ...results.tables import paragraphs, point, table_number
 
-__all__ = ["Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion", "SamplingReport"]
-
 
 @dataclass(frozen=True, eq=False)
 class AtlasCurve(Tabled):

@@ -20,8 +20,7 @@ from ...portrait.layer_problem.problem import LayerProblem
 from ...results.arrays import Array
 from ...results.words import say
 from .result import CycleBranch, CyclePoint
-from .section_base import Problems, SectionBase
-from .turns import ReturnMapPoint
+from .turns import Problems, ReturnMapPoint, SectionBase
 
 #: Of one point: value, period, amplitude, exponent, and where the cycle crosses its section.
 PointRow = tuple[float, float, float, float, float, float]

@@ -45,17 +45,29 @@ from .branch_ends import (
     slow_sequence,
 )
 from .corrector import BranchTracer, ClosedTurn, distance
-from .homoclinic_detection import line_of, split_at_homoclinic
-from .known_cycles import KnownCycle, RayPiece, distance_along_ray, lies_beyond, passes, reverse_piece, some_cycles
+from .known_cycles import (
+    KnownCycle,
+    RayPiece,
+    distance_along_ray,
+    lies_beyond,
+    line_of,
+    passes,
+    reverse_piece,
+    some_cycles,
+    split_at_homoclinic,
+)
 from .predictor_corrector import BAND_HEIGHT, trace_branch
 from .result import CycleBranch, CycleBranches, CyclePoint
-from .section_base import Problems, SectionBase, e_at, searched_part
 from .turns import (
     ContinuationPoint,
     ContinuationPoints,
+    Problems,
     ReturnMapPoint,
+    SectionBase,
     TurnGuess,
     VariedRay,
+    e_at,
+    searched_part,
 )
 
 START_SHARES, START_HEIGHT = (1e-3, 1e-4), 0.05  # of the reach: where branches start at a set; ebar, at the equator

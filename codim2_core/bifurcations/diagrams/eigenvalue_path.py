@@ -15,8 +15,6 @@ from ...results.result import Pictured
 from ...results.tables import html_table, table_number
 from ...systems.psi.function import Psi
 
-__all__ = ["LinearisationPath", "linearisation_path"]
-
 
 @dataclass(frozen=True, eq=False)
 class LinearisationPath(Pictured):

@@ -21,8 +21,7 @@ from ..families import special_points
 from ..families.family import AXES, SystemFamily
 from ..families.first_lyapunov import lyapunov
 from ..families.special_points import equator_numbers
-from .candidates import MAX_BLUR, Candidate, portrait_place
-from .changes import Change
+from .changes import MAX_BLUR, Candidate, Change, portrait_place
 from .result import SpecialValue
 from .states import States
 

@@ -1,8 +1,8 @@
-"""The result of `bifurcation_diagram`: equilibria along one parameter, limit cycles, and special points."""
+"""The result of `branches`: equilibria along one parameter, limit cycles, and special points."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -16,9 +16,28 @@ from ...results.tables import html_table, paragraphs, table_number
 from ...results.words import say
 from ...systems.kinds import AnySystem
 from ...systems.psi.function import Psi
+from ..continuation.branch_ends import MarkedValue
+from ..continuation.branches import continue_cycles
 from ..continuation.result import CycleBranches, CyclePoint
 
-__all__ = ["Branches", "ClosedEquator", "CriticalBranch", "DirectionBranch", "SpecialValue"]
+
+def cycle_branches(
+    system: Any,
+    psi: Psi,
+    along: str,
+    spans: Sequence[tuple[float, float]],
+    z: tuple[float, ...],
+    marked: Sequence[MarkedValue],
+) -> CycleBranches:
+    """Continue the limit cycles along one parameter."""
+    parts = [continue_cycles(system, psi, along, span, z, marked) for span in spans]
+    if len(parts) == 1:
+        return parts[0]
+    whole = spans[0][0], spans[-1][1]
+    reason = f" {say('elsewhere')} ".join(dict.fromkeys(part.reason for part in parts))
+    notes = tuple(note for part in parts for note in part.notes)
+    return CycleBranches(along, whole, tuple(branch for part in parts for branch in part), reason, notes)
+
 
 _COLUMNS = (
     "theta", "lambda_rho", "lambda_theta", "c", "s", "p_x", "p_y", "trace", "determinant", "period", "amplitude",
@@ -197,7 +216,7 @@ class Branches(Pictured):
 
     def with_cycles(self) -> Branches:
         """Return the same with branches of limit cycles, which take longer."""
-        from .cycle_branches import cycle_branches  # here: it loads the compiler
+        from .result import cycle_branches  # here: it loads the compiler
 
         ends = [self.span[0], *(v for gap in self.gaps for v in gap), self.span[1]]
         spans = [part for part in zip(ends[::2], ends[1::2], strict=True) if part[0] < part[1]]

@@ -17,8 +17,6 @@ from ...portrait.layer_problem.vary import vary
 from ...results.arrays import Array
 from ...systems.psi.function import Psi
 
-__all__ = ["State", "States", "on_circle"]
-
 _TEST_PLACES = 0.97 * np.stack([np.cos(np.arange(32.0)), np.sin(np.arange(32.0))], axis=-1)
 #: Of the span: so near, and at no even steps, U is a parabola but for its rounding.
 _TEST_OFFSETS = 1e-14 * np.array([-3.0, -1.3, 0.0, 1.7, 3.1])

@@ -18,17 +18,20 @@ from ...systems.psi.function import Psi
 from ..atlases.atlas import Atlas
 from ..atlases.cycles.cycle_curves import HALF_OFFSETS
 from ..families.disc import corners, cusps
-from .borders import PlaneMatrix, border_places, critical_lines, saddle_node_lines
 from .curve import (
     BifurcationCurve,
+    PlaneMatrix,
     SpecialPoint,
     border_atlas,
+    border_places,
     connection_atlas,
+    critical_lines,
     cycle_atlas,
     lines_of,
     matrix,
     plane_atlas,
     read_only_lines,
+    saddle_node_lines,
 )
 
 ON_ELLIPSE = 1e-7  # of |A^-1 f| - 1: on the ellipse

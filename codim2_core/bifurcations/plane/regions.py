@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...portrait.classify import Classification, classify, portrait_name
-from ...portrait.layer_problem.location import Existence, locate
+from ...portrait.layer_problem.linearisation import Existence, locate
 from ...portrait.layer_problem.problem import LayerProblem
 from ...results.arrays import Array, read_only
 from ...results.result import Pictured, Results, Tabled
@@ -20,8 +20,7 @@ from ...systems.kinds import takes_a_b_d
 from ...systems.psi.constructors import constant
 from ..atlases.atlas import family_over
 from ..atlases.regions import faces_between
-from .borders import PlaneMatrix, coefficients_of
-from .curve import NAMES, border_atlas, matrix
+from .curve import NAMES, PlaneMatrix, border_atlas, coefficients_of, matrix
 
 PLANE_MARGIN = (
     0.15  # of the largest |f| on the borders, and of the largest entry: how far the plane goes on beyond them

@@ -29,7 +29,7 @@ from ...results.words import say
 from ...systems.psi.function import Psi
 from ..initial_value.field import Field
 from ..initial_value.slow_manifold import complement, solve_critical
-from ..tracked_set import in_disc, jacobian
+from ..locations import in_disc, jacobian
 from .sigma_decision import ORBITS_AROUND, START_DISTANCE
 from .slide import Slide
 

@@ -24,9 +24,8 @@ from ...systems.psi.function import Psi
 from ..initial_value.events import EventWatch
 from ..initial_value.field import Field
 from ..initial_value.line import InvariantLine, invariant_line
-from ..locations import Ascent
+from ..locations import Ascent, in_disc
 from ..result import Phase
-from ..tracked_set import in_disc
 from .delay import REST_CHANGE, NotAnalyticError, cut_at_delayed_exit, departure_point, exit_circle
 from .fold_classification import Fold, classify_fold
 from .pending_phase import PendingDelay, PendingPhase

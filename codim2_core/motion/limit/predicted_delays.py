@@ -27,9 +27,6 @@ from .delay import REST_CHANGE, NotAnalyticError, cut_at_exit
 from .fold_classification import classify_fold
 from .slide import Slide, last_fraction, slide
 
-__all__ = ["delays"]
-
-
 RTOL, ATOL = 1e-10, 1e-12
 MAX_SLIDE_STEPS = 4000  # steps of a slide
 MAX_TIME_FACTOR = 100.0  # times as long as the ranges would take at the first rate is a motion followed

@@ -31,7 +31,7 @@ from ...portrait.cycles.limit_cycles import limit_cycles
 from ...portrait.layer_problem.critical import CriticalSet, critical_sets
 from ...portrait.layer_problem.equator import EquatorEquilibria, equator_equilibria
 from ...portrait.layer_problem.problem import LayerProblem
-from ...portrait.outcome_verdicts import judge, omega_limits_of, orbits_to_end
+from ...portrait.outcome_verdicts import judge, omega_limits_of, orbits_to_end, states_at
 from ...results.arrays import Array
 from ...results.words import say
 from ...systems.arguments import short_repr
@@ -109,7 +109,7 @@ def decide_arrival(system: AnySystem, psi: Psi | None, z: Array, theta: float) -
 def decide_from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Decision:
     """Decide what becomes of orbits of the layer problem at z (m,) from points (k, 2) of the hemisphere."""
     hemisphere = LayerProblem(system.at(tuple(z.tolist())), psi)
-    found = omega_limits_of(hemisphere, orbits_to_end(hemisphere, points))
+    found = omega_limits_of(hemisphere, orbits_to_end(hemisphere, states_at(points)))
     verdict, onto, leaving, _, reason, _ = judge(hemisphere, found, "Orbits go on from there")
     return _decision_of_outcome(hemisphere, verdict, onto, leaving, reason)
 

@@ -26,11 +26,10 @@ from ...systems.kinds import AnySystem
 from ...systems.psi.function import Psi
 from ..initial_value.events import DEGREES, monotone_fractions
 from ..initial_value.field import Field
-from ..initial_value.inspection import Inspection
 from ..initial_value.kernels.motion import FIRST_STEP_SHARE
 from ..initial_value.kernels.rate import ROUNDING
 from ..initial_value.line import InvariantLine
-from ..initial_value.motion_steps import MotionSteps
+from ..initial_value.motion_steps import Inspection, MotionSteps
 from ..initial_value.slow_manifold import SlowManifold, complement, determinant, trace
 from ..initial_value.slow_steps import (
     FOLD_MARGIN,

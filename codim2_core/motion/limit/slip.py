@@ -19,12 +19,11 @@ from ...results.words import say
 from ...systems.psi.constructors import constant
 from ..initial_value.field import Field
 from ..initial_value.functions import functions_of
-from ..initial_value.inspection import Inspection
 from ..initial_value.kernels import slow
 from ..initial_value.kernels.motion import AT_SIGMA
 from ..initial_value.kernels.slow import SET_PLACE, SLOPES, SLOW_EXTENT, VALUE
 from ..initial_value.line import InvariantLine
-from ..initial_value.motion_steps import MotionSteps, rate_at
+from ..initial_value.motion_steps import Inspection, MotionSteps, rate_at
 
 
 def polynomial_of(*terms: Array) -> Array:

@@ -18,13 +18,11 @@ from ...results.tables import html_table, paragraphs, table_number
 from ...results.words import say
 from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.function import Psi
-from ..argument_checks import MAX_STEPS, checked_eps, checked_state, checked_tolerances, with_time
 from ..initial_value.field import field as formulas_of
+from ..simulate import MAX_STEPS, checked_eps, checked_state, checked_tolerances, with_time
 from .result import PeriodicStatus
 from .search import shooting
 from .shooting import LostError
-
-__all__ = ["lyapunov_exponents"]
 
 BATCHES = 16  # parts of equal length whose spread gives the errors
 

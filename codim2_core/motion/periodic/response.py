@@ -24,13 +24,11 @@ from ...systems.arguments import short_repr
 from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.constructors import constant
 from ...systems.psi.function import Psi
-from ..argument_checks import MAX_STEPS
 from ..result import Simulation
+from ..simulate import MAX_STEPS
 from .response_piece import MotionFamily, Piece, at_value, jump_corner, measure_piece, response_row
 from .result import KINDS_OF_CHANGE, ResponseCurve, ResponsePoint, ResponseRow, change_point
 from .search import periodic_motion, shooting
-
-__all__ = ["response_curve"]
 
 PIECE_POINTS = 24  # points after which unknowns are measured anew, and the section is laid anew
 LONGEST_STEP, MAX_TANGENT_TURN = 0.1, 0.25  # of the span, or of the motion's size; between tangents, rad

@@ -15,9 +15,8 @@ from ...results.arrays import Array
 from ...systems.psi.constructors import constant
 from ..initial_value.field import field
 from ..result import Simulation
-from .multipliers import multipliers, rate_at
 from .result import ResponseRow
-from .shooting import LostError, Shooting, Shot
+from .shooting import LostError, Shooting, Shot, multipliers, rate_at
 
 SAMPLES = 8  # places within a step, between which extremes are looked for
 NEWTON_ROUNDS = 3  # of the place of an extreme within a step: its error is the square each time

@@ -16,17 +16,12 @@ from ...results.arrays import Array
 from ...results.words import say
 from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.function import Psi
-from ..argument_checks import MAX_STEPS, checked_eps, checked_state, checked_tolerances, with_time
 from ..initial_value.field import Field, field
 from ..limit.sigma_decision import checked_stiction
 from ..result import Simulation
-from ..simulate import simulate
-from .multipliers import matching_distances, multipliers
+from ..simulate import MAX_STEPS, checked_eps, checked_state, checked_tolerances, simulate, with_time
 from .result import PeriodicMotion, PeriodicStatus
-from .shooting import LostError, Shooting, Shot
-
-__all__ = ["periodic_motion"]
-
+from .shooting import LostError, Shooting, Shot, matching_distances, multipliers
 
 MAX_NEWTON, MAX_HALVINGS = 40, 8  # of Newton's method, and of one of its steps
 FINAL_RTOL_SHARE = 1e-2  # of rtol: how closely the motion is followed at last

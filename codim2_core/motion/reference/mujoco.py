@@ -13,8 +13,6 @@ from ...results.arrays import Array
 from ...systems.examples.example import GRAVITY
 from .record import Comparison, ReferenceMotion
 
-__all__ = ["FOLLOWED", "follow_in_mujoco"]
-
 STEP = 1e-3  # s
 IMPRATIO = 100.0
 CREEP_SPEED = 1e-2  # m/s of the slip: below it creeps; from before it is extrapolated to where it would be zero

@@ -8,8 +8,6 @@ from dataclasses import dataclass, field
 from ...results.result import Several, Tabled
 from ...results.tables import table_number
 
-__all__ = ["Comparison", "ExactValue", "Measured", "ReferenceMotion"]
-
 ROUNDING = 4.0 * 2.0**-52  # relative: what evaluating a closed form in doubles loses at most
 RTOL, ATOL = 1e-11, 1e-13  # with which motions are followed here
 

@@ -27,6 +27,7 @@ from ..initial_value.field import Slopes, slopes_of
 from ..initial_value.line import InvariantLine
 from .propagators import (
     Propagators,
+    Variation,
     chain_propagators,
     pad_jacobians,
     past_jumps,
@@ -34,7 +35,6 @@ from .propagators import (
     shrinks_across,
     states_along,
 )
-from .result import Variation
 
 StepIndices = NDArray[np.intp]
 

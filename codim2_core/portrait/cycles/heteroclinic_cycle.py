@@ -14,7 +14,7 @@ import numpy as np
 from ...results.arrays import Array
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.problem import LayerProblem
-from ..orbits.departures import departures
+from ..orbits.seeds import departures
 from .ray_section import MAX_STEPS, HemispherePoint, HeteroclinicArc, Ray, TurnSection
 
 RTOL = 1e-12

@@ -22,16 +22,12 @@ from ...systems.coefficients import Coefficients
 from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.function import Psi
 from ..layer_problem.critical import CriticalSet, slow_flow_at
-from ..layer_problem.linearisation import matrix_determinant
-from ..layer_problem.location import Existence, Location, locate
+from ..layer_problem.linearisation import Existence, Location, locate, matrix_determinant
 from ..layer_problem.problem import LayerProblem, found_once
 from .cycle_search import search_cycles
 from .periodic_orbit import Orbit
 from .proof.result import Proof, covers
 from .ray_section import FixedPoint
-
-__all__ = ["LimitCycle", "LimitCycles", "limit_cycles", "reason_for_none"]
-
 
 NO_FLOW = np.zeros(0)
 SEMISTABLE = 1e-5  # |ln multiplier| below which a cycle counts as semistable: a fold of cycles

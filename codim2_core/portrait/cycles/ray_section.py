@@ -25,7 +25,7 @@ from ...results.arrays import Array
 from ...systems.frozen import FrozenSystem
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import equilibria_at
-from ..layer_problem.location import Location
+from ..layer_problem.linearisation import Location
 from ..layer_problem.problem import LayerProblem
 
 

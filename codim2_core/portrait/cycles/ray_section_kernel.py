@@ -16,7 +16,6 @@ from ..stepping.dop853 import advance
 from ..stepping.layout import (
     ERROR_3,
     ERROR_5,
-    GAINS,
     K0,
     K12,
     LANES,
@@ -38,7 +37,7 @@ def workspace(shared):
     S, P = np.zeros(WORKSPACE), np.zeros(PARAMETERS)
     for m in range(SIDE_SIGN):
         P[m] = shared[m]
-    for m in range(SIDE_SIGN, GAINS):
+    for m in range(SIDE_SIGN, PARAMETERS):
         P[m] = -1.0
     return S, P
 

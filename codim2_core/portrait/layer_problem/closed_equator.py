@@ -16,8 +16,6 @@ from ...results.words import say
 from ...systems.kinds import AnySystem, takes_names
 from .equator_zeros import equator_as_orbit
 
-__all__ = ["NEUTRAL_EQUATOR", "EquatorCycle", "equator_cycle"]
-
 SADDLE_NODE_DISTANCE = 1e-4  # distance from a saddle-node below which the zeros need more than doubles
 NEUTRAL_EQUATOR = 2.0**-49  # of the terms of the exponent: zero within rounding
 

@@ -1,6 +1,6 @@
 """Critical sets: the equilibria of the layer problem, with their linearisation.
 
-Where they are is `location`'s for the e-linear system (Theorem 4.1), that of `disc_zeros` for typed formulas.
+Where they are is `locate`'s for the e-linear system (Theorem 4.1), that of `disc_zeros` for typed formulas.
 """
 
 from __future__ import annotations
@@ -23,11 +23,13 @@ from .disc_zeros import FLAT, disc_zeros
 from .linearisation import (
     Frame,
     LinearisationParts,
+    Location,
     linearisation,
+    locate,
     matrix_determinant,
+    rotate_location,
     spectrum,
 )
-from .location import Location, locate, rotate_location
 
 SMALL_TRACE = 1e-9  # of the terms of tr J, below which it is asked whether rounding made it
 PLACED = 4 * 2.0**-52  # of |e|, to which the place of a zero is known

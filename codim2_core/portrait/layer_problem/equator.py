@@ -37,12 +37,8 @@ from ...results.words import say
 from ...systems.coefficients import Affine
 from ...systems.frozen import FrozenSystem
 from ...systems.kinds import AnySystem, takes_names
-from .closed_equator import EquatorCycle, equator_cycle
 from .equator_zeros import equator_zeros
-from .location import Location, locate
-
-__all__ = ["EquatorCycle", "EquatorEquilibria", "equator_cycle", "equator_equilibria"]
-
+from .linearisation import Location, locate
 
 #: Of the terms of lambda_rho: zero, where det A = 0 leaves no isolated critical set to ask.
 SINGULAR_ROUNDING = 8 * INPUT_ROUNDING

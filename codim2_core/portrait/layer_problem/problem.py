@@ -12,7 +12,7 @@ from ...systems.psi.function import Psi
 from .closed_equator import EquatorCycle, equator_cycle
 from .critical import CriticalSet, sets_at
 from .equator import EquatorEquilibria, equilibria_at
-from .location import Location, locate
+from .linearisation import Location, locate
 
 Result = TypeVar("Result")
 

@@ -13,8 +13,6 @@ from ...systems.psi.constructors import with_parameter
 from ...systems.psi.function import Psi
 from ...systems.reading import MAX_NUMBER
 
-__all__ = ["check_name", "check_varying", "limits", "names", "usual_span", "value_of", "vary"]
-
 
 def names(system: Any, psi: Psi, z: ArrayLike = ()) -> tuple[str, ...]:
     """Names of all that can be varied: numbers of the system, its parameters, z1 to zm, and that of Psi."""

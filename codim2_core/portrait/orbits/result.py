@@ -125,17 +125,6 @@ def concatenate(parts: Sequence[Trajectories]) -> Trajectories:
     )
 
 
-def cut_up(every: Trajectories, until: Sequence[int], evaluations: Sequence[int]) -> list[Trajectories]:
-    """One result as several, each up to the trajectory `until` which it goes, with its evaluations."""
-    parts = []
-    for first, last, count in zip([0, *until], until, evaluations, strict=False):
-        low, high = every.offsets[[first, last]].tolist()
-        buffer, clock, offsets = every.buffer[low:high].copy(), every.clock[low:high].copy(), every.offsets - low
-        ends, codes = every.ends[first:last].copy(), every.codes[first:last].copy()
-        parts.append(Trajectories(buffer, clock, offsets[first : last + 1], ends, codes, count))
-    return parts
-
-
 def append_continuations(first: Trajectories, which: NDArray[np.int64], rest: Trajectories) -> Trajectories:
     """Return trajectories of which some, `which` of `first`, go on as `rest`, from where they ended there."""
     points, times = list(first.points), list(first.times)

@@ -24,7 +24,7 @@ from ...systems.frozen import FrozenSystem
 from ...systems.kinds import AnySystem, takes_names
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.disc_zeros import disc_zeros
-from ..layer_problem.location import Existence, locate
+from ..layer_problem.linearisation import Existence, locate
 
 
 @takes_names

@@ -12,25 +12,36 @@ import numpy as np
 
 from ...formulas.jit import call_field, fast_kernel
 from .dop853 import advance, dense, interpolate
-from .events import INTERIOR, MIRROR, NO_ATTRACTOR, is_captured, left_view, winding
 from .layout import (
-    BLOCK,
-    BLOCKS,
     ERROR_3,
     ERROR_5,
-    GAINS,
     K0,
     K12,
     LANES,
     NEW,
     PARAMETERS,
-    PSIS,
     SIDE_SIGN,
     STATE,
     STEP_ROW,
     WORKSPACE,
 )
-from .polyline import BEGUN, CURSOR, append_step, begin_lines, end_line, in_order, keep_line, length_of, longer
+from .polyline import (
+    BEGUN,
+    CURSOR,
+    INTERIOR,
+    MIRROR,
+    NO_ATTRACTOR,
+    append_step,
+    begin_lines,
+    end_line,
+    in_order,
+    is_captured,
+    keep_line,
+    left_view,
+    length_of,
+    longer,
+    winding,
+)
 
 # Outcomes; `orbits.trajectories.Status` lists their sentences in this order.
 T_MAX, EQUILIBRIUM, LEFT_VIEW, AT_LIMIT_DIRECTION, SPIRALLED, STAYS_ON_EQUATOR, STEP_LIMIT, LENGTH = range(8)
@@ -104,27 +115,16 @@ def _flag(S, P, times, accepted, spent, flags, t_max, slow, near, view, limit):
 
 
 @fast_kernel
-def _assign_gains(P, own):
-    """Give each block of lanes its Psi of those in the rows of `own`: the address of its gain, and its parameter."""
+def _begin_trajectories(S, P, states, signs, following, first, who, times, steps, spent, counts, travelled, accepted):
+    """Give each free lane the next trajectory, at the start of its time; return which is the next after these."""
     for k in range(LANES):
-        j = k // BLOCK
-        m = j * own.shape[0] // BLOCKS
-        P[GAINS + j], P[PSIS + k] = own[m, 0], own[m, 1]
-
-
-@fast_kernel
-def _begin_trajectories(
-    S, P, states, signs, following, until, first, who, times, steps, spent, counts, travelled, accepted
-):
-    """Give each free lane the next trajectory of its Psi, at the start of its time."""
-    for k in range(LANES):
-        m = (k // BLOCK) * following.shape[0] // BLOCKS
-        if who[k] < 0 and following[m] < until[m]:
-            _load(S, P, k, states, signs, following[m])
-            who[k], times[k], steps[k], spent[k], counts[k] = following[m], 0.0, first, 0, 1
+        if who[k] < 0 and following < len(states):
+            _load(S, P, k, states, signs, following)
+            who[k], times[k], steps[k], spent[k], counts[k] = following, 0.0, first, 0, 1
             travelled[k] = 0.0
             accepted[k] = BEGUN
-            following[m] += 1
+            following += 1
+    return following
 
 
 @fast_kernel
@@ -189,14 +189,13 @@ def _accept_steps(S, times, accepted):
 # In one piece: with the stages of a step, the drawing of a line and its end as inlined functions of their own, results
 # were the same and took 6 to 11 % longer (medians of paired runs, process time).
 @fast_kernel
-def integrate(states, signs, shared, field, own, until, t_max, rtol, atol, limit, capture, view, distance, longest):
-    """Integrate every row of `states` (n, 3), with signs (n,), own (m, 2), until (m,); |U| is about 1."""
+def integrate(states, signs, shared, field, t_max, rtol, atol, limit, capture, view, distance, longest):
+    """Integrate every row of `states` (n, 3), with signs (n,); |U| is about 1."""
     n = states.shape[0]
     draw = distance > 0.0
     S, P, scratch = np.zeros(WORKSPACE), np.zeros(PARAMETERS), np.empty(MIRROR)
     for m in range(SIDE_SIGN):
         P[m] = shared[m]
-    _assign_gains(P, own)
     cursor = np.zeros((CURSOR, LANES))
     times, steps, tried, accepted = np.zeros(2 * LANES), np.zeros(LANES), np.zeros(LANES), np.zeros(LANES)
     flags = np.zeros(LANES, np.int64)
@@ -211,14 +210,11 @@ def integrate(states, signs, shared, field, own, until, t_max, rtol, atol, limit
     slow, near = (4.0 * capture) ** 2, max(SPIRAL_HEIGHT, capture)
     for k in range(LANES):
         _load(S, P, k, states, signs, 0)  # an idle lane repeats a harmless state with steps of length 0
-    following = np.zeros(len(until), np.int64)
-    for m in range(1, len(until)):
-        following[m] = until[m - 1]
-    evaluations, done, free = np.zeros(len(until), np.int64), 0, True
+    following, evaluations, done, free = 0, 0, 0, True
     while done < n:
         if free:
-            _begin_trajectories(
-                S, P, states, signs, following, until, first, who, times, steps, spent, counts, travelled, accepted
+            following = _begin_trajectories(
+                S, P, states, signs, following, first, who, times, steps, spent, counts, travelled, accepted
             )
             call_field(field, S, STATE, K0, P)
             begin_lines(S, P, cursor, lines, accepted)
@@ -265,7 +261,7 @@ def integrate(states, signs, shared, field, own, until, t_max, rtol, atol, limit
                 store = longer(store)
             where[i], length[i] = stored, counts[k]
             stored = keep_line(store, stored, lines, counts, k)
-            evaluations[(k // BLOCK) * len(until) // BLOCKS] += 1 + spent[k] * (15 if interpolated else 12)
+            evaluations += 1 + spent[k] * (15 if interpolated else 12)
             who[k], spent[k] = -1, IDLE
             done += 1
             free = True

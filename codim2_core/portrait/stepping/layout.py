@@ -10,9 +10,8 @@ compiled once, whatever the system. The gain of Psi, where a right-hand side ask
 The numbers that a compiled right-hand side reads, and the unit of time in which it runs.
 
 An e-linear field reads ``[a, b, d, f1, f2, parameter of Psi]``. A general one reads a factor (one over the unit of
-speed, negative backward in time), at FORMULAS the address of its packed formulas, and at GAIN that of the gain of Psi
-(so does an e-linear one whose lanes have a Psi of their own). A typed Psi has the address of its own packed formula in
-the place of a parameter.
+speed, negative backward in time), at FORMULAS the address of its packed formulas, and at GAIN that of the gain of Psi.
+A typed Psi has the address of its own packed formula in the place of a parameter.
 """
 
 from __future__ import annotations
@@ -52,13 +51,7 @@ DENSE_ROWS = 22 * ROW_WIDTH  # seven rows
 WORKSPACE = 29 * ROW_WIDTH
 
 SIDE_SIGN = SHARED_SIZE  # P[SIGN + lane] = -1 on the hemisphere, +1 outside
-# Where lanes have a Psi of their own, BLOCK neighbours (a register of four) have the same one: P[GAINS + block] is the
-# address of its gain for one block, and P[PSIS + lane] its parameter.
-BLOCK = max(LANES // 8, 1)
-BLOCKS = LANES // BLOCK
-GAINS = SIDE_SIGN + LANES
-PSIS = GAINS + BLOCKS
-PARAMETERS = PSIS + LANES
+PARAMETERS = SIDE_SIGN + LANES
 
 EQUATOR_ROUNDING = 8.9e-16  # | |p| - 1 | of a seed that was meant to lie on the equator: four roundings
 

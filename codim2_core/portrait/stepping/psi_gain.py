@@ -12,14 +12,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any
 
 from ...formulas.jit import (
     SCRATCH_SIZE,
     ahead,
     bits_of_double,
-    call_at,
     carray,
     compile_address,
     compile_with_gain,
@@ -32,13 +30,9 @@ from ...formulas.packed import BOUND, ROWS, at_address, result, row, run_packed
 from ...systems.psi.families.record import UNDERFLOW_BOUND
 from ...systems.psi.function import Psi
 from .layout import (
-    BLOCK,
-    BLOCKS,
-    GAINS,
     LANES,
     PARAMETERS,
     PSI,
-    PSIS,
     ROW_WIDTH,
     SIDE_SIGN,
 )
@@ -130,13 +124,13 @@ def typed_gain(r2, w, parameter):
 
 
 @inlined_fast_kernel
-def write_typed_gains(state, out, parameters, address, lanes):
-    """Write the gains of a typed Psi, whose packed formula is at an address, in the first lanes."""
+def write_typed_gains(state, out, parameters, address):
+    """Write the gains of a typed Psi, whose packed formula is at an address, in all lanes."""
     T, R = at_address(int(address)), scratch()
-    width = min(lanes, SCRATCH_SIZE // int(T[ROWS]))
-    for block in range((lanes + width - 1) // width):
+    width = min(LANES, SCRATCH_SIZE // int(T[ROWS]))
+    for block in range((LANES + width - 1) // width):
         first = block * width
-        count = min(width, lanes - first)
+        count = min(width, LANES - first)
         S, D = carray(ahead(state, first), (ROW_WIDTH,)), carray(ahead(out, first), (count,))
         P = carray(ahead(parameters, first), (SIDE_SIGN + LANES,))
         s, psi = row(R, 0, width, count), result(T, R, 0, width, count)
@@ -211,7 +205,7 @@ def _gains(state, out, parameters):
 
 
 def _typed_gains(state, out, parameters):
-    write_typed_gains(state, out, parameters, carray(parameters, (PARAMETERS,))[PSI], LANES)
+    write_typed_gains(state, out, parameters, carray(parameters, (PARAMETERS,))[PSI])
 
 
 _compiled = GainVariants(_gains, _typed_gains)
@@ -220,37 +214,6 @@ _compiled = GainVariants(_gains, _typed_gains)
 def gains(psi: Psi, smooth: bool) -> Any:
     """Return the compiled gain of all lanes, whose `address` a general system's field calls."""
     return _compiled.get(variant(psi, smooth))
-
-
-def _gains_of_block(state, out, parameters):
-    S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (PARAMETERS,))
-    for lane in range(BLOCK):
-        r2, w = arguments(S, P, lane)
-        D[lane] = gain(r2, w, kind(P[PSIS + lane]))
-
-
-def _gains_of_blocks(state, out, parameters):
-    P = carray(parameters, (PARAMETERS,))
-    for j in range(BLOCKS):
-        call_at(int(P[GAINS + j]), ahead(state, j * BLOCK), ahead(out, j * BLOCK), ahead(parameters, j * BLOCK))
-
-
-def _typed_gains_of_block(state, out, parameters):
-    write_typed_gains(state, out, parameters, carray(parameters, (PARAMETERS,))[PSIS], BLOCK)
-
-
-_compiled_of_block = GainVariants(_gains_of_block, _typed_gains_of_block)
-
-
-def gains_of_block(psi: Psi, smooth: bool) -> Any:
-    """Return the compiled gain of one block of lanes, for `gains_of_blocks`; as `psi_gain`."""
-    return _compiled_of_block.get(variant(psi, smooth))
-
-
-@lru_cache(maxsize=1)
-def gains_of_blocks() -> Any:
-    """Return the compiled gain of lanes that have a Psi of their own, block by block: see `layout.GAINS`."""
-    return compile_address(_gains_of_blocks)
 
 
 def _one_gain(state, out, parameters):

@@ -10,12 +10,10 @@ Loops are free of branches and of library calls, so that they run in vector regi
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
-
-import numpy as np
 
 from ...formulas import arrays
 from ...formulas.jit import SCRATCH_SIZE, ahead, call_at, carray, compile_address, inlined_fast_kernel, scratch
@@ -31,8 +29,6 @@ from .psi_gain import (
     gain,
     gain_parameter,
     gains,
-    gains_of_block,
-    gains_of_blocks,
     kind,
     variant,
     write_typed_gains,
@@ -60,16 +56,9 @@ def _psi_field(state, out, parameters):
         write_lane(S, D, P, lane, gain(r2, w, parameter), P[0], P[1], P[2], P[3], P[4])
 
 
-def _field_of_gain(state, out, parameters):
-    call_at(int(carray(parameters, (PARAMETERS,))[GAIN]), state, out, parameters)
-    S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (PARAMETERS,))
-    for lane in range(LANES):
-        write_lane(S, D, P, lane, D[lane], P[0], P[1], P[2], P[3], P[4])
-
-
 def _typed_psi_field(state, out, parameters):
     S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (PARAMETERS,))
-    write_typed_gains(state, out, parameters, P[PSI], LANES)
+    write_typed_gains(state, out, parameters, P[PSI])
     for lane in range(LANES):
         write_lane(S, D, P, lane, D[lane], P[0], P[1], P[2], P[3], P[4])
 
@@ -85,12 +74,6 @@ def is_compiled(psi: Psi) -> bool:
 def field_of_psi(psi: Psi) -> Any:
     """Return the compiled field for Psi, (3.26) and (2.12) in one chart; keep it while its `address` is in use."""
     return _compiled.get(variant(psi, True))
-
-
-@lru_cache(maxsize=1)
-def field_of_gain() -> Any:
-    """Return the same for a gain that is called at its address, in place GAIN of the parameters."""
-    return compile_address(_field_of_gain)
 
 
 def _interpreted_field(state, out, parameters):
@@ -129,10 +112,6 @@ def packed_formulas(key: Hashable) -> tuple[Array, bool]:
     return pack(program, len(FAST_NAMES)), program.is_entire
 
 
-ALONE = np.zeros((1, 2))
-ALONE.flags.writeable = False
-
-
 @dataclass(frozen=True)
 class CompiledProblem:
     """A right-hand side, scaled so that |U| is about 1."""
@@ -141,7 +120,6 @@ class CompiledProblem:
     shared: Array  # (SHARED_SIZE,) Its parameters
     functions: tuple[Any, ...]  # what is behind the addresses: it must outlive their use
     factors: slice  # the parameters to which the right-hand side is proportional
-    own: Array  # (m, 2) Address and parameter of the gain of each of several Psi, see `lanes.integrate`
 
     @property
     def reversed(self) -> CompiledProblem:
@@ -153,29 +131,11 @@ class CompiledProblem:
 
 def problem(at: FrozenSystem, psi: Psi, backward: bool = False) -> CompiledProblem:
     """Prepare a right-hand side."""
+    parameter = gain_parameter(psi)
     if at.as_given is not None:
         field = field_of_psi(psi)
-        shared = field_numbers(at, gain_parameter(psi), backward)
-        return CompiledProblem(field.address, shared, (field, psi), slice(0, 5), ALONE)
+        return CompiledProblem(field.address, field_numbers(at, parameter, backward), (field, psi), slice(0, 5))
     formulas, smooth = packed_formulas(at.key)
-    return _general_problem(at, formulas, gains(psi, smooth), psi, backward, (psi,), ALONE)
-
-
-def problems(at: FrozenSystem, psis: Sequence[Psi], backward: bool = False) -> CompiledProblem:
-    """Prepare a right-hand side whose lanes have a Psi of their own, of at most BLOCKS."""
-    formulas, smooth = packed_formulas(at.key) if at.as_given is None else (None, True)
-    mixed, each = gains_of_blocks(), [gains_of_block(psi, smooth) for psi in psis]
-    own = np.array([(gain.address, gain_parameter(psi)) for gain, psi in zip(each, psis, strict=True)], float)
-    if formulas is not None:
-        return _general_problem(at, formulas, mixed, psis[0], backward, (*each, *psis), own)
-    field, shared = field_of_gain(), field_numbers(at, gain_parameter(psis[0]), backward, mixed.address)
-    return CompiledProblem(field.address, shared, (field, mixed, *each, *psis), slice(0, 5), own)
-
-
-def _general_problem(
-    at: FrozenSystem, formulas: Array, gain: Any, psi: Psi, backward: bool, kept: tuple[Any, ...], own: Array
-) -> CompiledProblem:
-    """Prepare the right-hand side of a general system."""
-    field = general_field()
-    shared = field_numbers(at, gain_parameter(psi), backward, gain.address, formulas.ctypes.data)
-    return CompiledProblem(field.address, shared, (field, gain, formulas, *kept), slice(FACTOR, FACTOR + 1), own)
+    field, gain = general_field(), gains(psi, smooth)
+    shared = field_numbers(at, parameter, backward, gain.address, formulas.ctypes.data)
+    return CompiledProblem(field.address, shared, (field, gain, formulas, psi), slice(FACTOR, FACTOR + 1))

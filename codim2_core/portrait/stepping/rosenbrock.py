@@ -19,7 +19,6 @@ import numpy as np
 
 from ...formulas.jit import call_field, fast_kernel
 from .dop853 import dense
-from .events import INTERIOR, MIRROR, ON_EQUATOR_ATTRACTOR, is_captured, left_view
 from .lanes import MAX_GROWTH, MAX_SHRINKAGE, STEP_SAFETY
 from .layout import (
     DENSE_ROWS,
@@ -41,7 +40,22 @@ from .layout import (
     TRIAL,
     WORKSPACE,
 )
-from .polyline import CURSOR, X, Y, append_step, end_line, keep_line, length_of, longer, start
+from .polyline import (
+    CURSOR,
+    INTERIOR,
+    MIRROR,
+    ON_EQUATOR_ATTRACTOR,
+    X,
+    Y,
+    append_step,
+    end_line,
+    is_captured,
+    keep_line,
+    left_view,
+    length_of,
+    longer,
+    start,
+)
 
 # As in `lanes`
 T_MAX, EQUILIBRIUM, LEFT_VIEW, AT_LIMIT_DIRECTION, STEP_LIMIT, LENGTH, RUNNING = 0, 1, 2, 3, 6, 7, -1

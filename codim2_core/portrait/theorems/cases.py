@@ -11,7 +11,7 @@ from ...systems.examples.attracting_repelling import attracting_repelling
 from ...systems.examples.nonunique_sliding import nonunique_sliding
 from ...systems.psi.constructors import comparison_families
 from ...systems.typed import System
-from ..layer_problem.location import Existence
+from ..layer_problem.linearisation import Existence
 from .facts import RAY_ANGLES, RELATIVE_TOLERANCE, Certificate, Claim, Facts
 
 ANGLE_ROUNDING = 4.0 * np.finfo(float).eps

@@ -20,7 +20,7 @@ from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.function import Psi
 from ..cycles.limit_cycles import LimitCycle, certificate_of, excluding_theorem
 from ..cycles.proof.result import Proof
-from ..layer_problem.location import Existence
+from ..layer_problem.linearisation import Existence
 from ..layer_problem.problem import LayerProblem
 from ..sliding.filippov import sliding_flow
 from .cases import (
@@ -34,10 +34,8 @@ from .cases import (
     normal_form,
     symmetric,
 )
-from .facts import RAY_ANGLES, RELATIVE_TOLERANCE, Array, Certificate, Claim, Facts, Verdict
+from .facts import RAY_ANGLES, RELATIVE_TOLERANCE, Array, Certificate, Claim, Facts
 from .sliding_claims import psi_claims, sliding_claims
-
-__all__ = ["Certificate", "Verdict", "certificates", "prove_portrait"]
 
 MOST_CONDITION = 1e12
 

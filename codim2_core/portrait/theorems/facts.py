@@ -22,7 +22,7 @@ from ..classify import portrait_name
 from ..layer_problem.closed_equator import EquatorCycle
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorEquilibria
-from ..layer_problem.location import Existence, Location
+from ..layer_problem.linearisation import Existence, Location
 from ..layer_problem.problem import LayerProblem
 
 RELATIVE_TOLERANCE = 1e-9  # of the size of what is compared

@@ -11,8 +11,8 @@ from dataclasses import replace
 from typing import Any
 
 from codim2_core.bifurcations.atlases.atlas import Atlas, curves_over, with_bifurcations_of_cycles, with_regions
-from codim2_core.bifurcations.diagrams.class_line import ClassInterval, class_line
-from codim2_core.bifurcations.plane.borders import border_reach, coefficients_of
+from codim2_core.bifurcations.diagrams.classes import ClassInterval, class_line
+from codim2_core.bifurcations.plane.curve import border_reach, coefficients_of
 from codim2_core.bifurcations.plane.plane_curves import may_turn
 from codim2_core.systems.coefficients import Coefficients
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from codim2_core.bifurcations.atlases.connections.connection_curves import KINDS
 from codim2_core.bifurcations.atlases.result import Atlas
-from codim2_core.bifurcations.diagrams.class_line import ClassInterval
+from codim2_core.bifurcations.diagrams.classes import ClassInterval
 
 from ...picture.draw.glyphs import join
 from ...picture.draw.packing import Polylines

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from codim2_core.bifurcations.continuation.result import CycleBranches
-from codim2_core.bifurcations.diagrams.bifurcation_diagram import Branches, branches
+from codim2_core.bifurcations.diagrams.equilibrium_branches import Branches, branches
 
 from ...picture.draw.thumbnails import MAX_KEPT as MAX_FRAMES
 from ...picture.draw.thumbnails import thumbnails

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from codim2_core.bifurcations.diagrams.class_line import NeighbouringPortraits
-from codim2_core.bifurcations.diagrams.class_line import sides as portraits_beside
+from codim2_core.bifurcations.diagrams.classes import NeighbouringPortraits
+from codim2_core.bifurcations.diagrams.classes import sides as portraits_beside
 from codim2_core.portrait.layer_problem.vary import names
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear

@@ -8,11 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from codim2_core.motion.argument_checks import LARGEST_EPS, SMALLEST_EPS
 from codim2_core.motion.compare_with_limit import agreement
 from codim2_core.motion.result import Simulation
 from codim2_core.motion.rolling import rolling
-from codim2_core.motion.simulate import simulate, simulate_nonsmooth
+from codim2_core.motion.simulate import LARGEST_EPS, SMALLEST_EPS, simulate, simulate_nonsmooth
 from codim2_core.portrait.orbits.in_time import LEAST_RADIUS, angle_along
 from codim2_core.systems.examples import Ball, catalogue
 from codim2_core.systems.psi.function import Psi

@@ -89,10 +89,7 @@ def _compile_everything() -> None:
         for smooth in (True, False):
             right_hand_side.field_of_psi(psi)
             psi_gain.gains(psi, smooth)
-            psi_gain.gains_of_block(psi, smooth)
             psi_gain.one_gain(psi)
-    right_hand_side.field_of_gain()
-    psi_gain.gains_of_blocks()
     warm_all()
 
 

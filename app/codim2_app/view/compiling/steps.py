@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from codim2_core.bifurcations.diagrams.bifurcation_diagram import branches
+from codim2_core.bifurcations.diagrams.equilibrium_branches import branches
 from codim2_core.portrait.approach_outcomes import approach_outcomes
 from codim2_core.portrait.cycles.limit_cycles import limit_cycles
 from codim2_core.portrait.orbits.trajectories import warm

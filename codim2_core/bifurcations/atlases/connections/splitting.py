@@ -35,7 +35,7 @@ from ....portrait.orbits.trajectories import Trajectories, continuation, traject
 from ....results.arrays import Array
 from ....systems.frozen import FrozenSystem
 from ....systems.psi.function import Psi
-from ...continuation.section_base import correct_zero, e_at, hemisphere_place
+from ...continuation.turns import correct_zero, e_at, hemisphere_place
 from ...families.family import SystemFamily
 
 RTOL, ROUGH_RTOL = 1e-12, 1e-7  # of branches, and of those that are drawn alone

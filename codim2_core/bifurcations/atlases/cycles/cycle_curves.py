@@ -17,8 +17,7 @@ from ....portrait.layer_problem.problem import LayerProblem
 from ....results.arrays import Array, read_only
 from ....results.words import say
 from ...continuation.branches import BranchSearch
-from ...continuation.section_base import e_at
-from ...continuation.turns import ReturnMapPoint, VariedRay
+from ...continuation.turns import ReturnMapPoint, VariedRay, e_at
 from ...families.family import SystemFamily
 from ..disc_atlas import is_covered, length_of
 from ..result import AtlasCurve, AtlasPoint

@@ -32,8 +32,7 @@ from ....portrait.layer_problem.critical import critical_sets
 from ....portrait.layer_problem.problem import LayerProblem
 from ....results.arrays import Array
 from ....systems.frozen import FrozenSystem
-from ...continuation.section_base import correct_zero, e_at, hemisphere_place
-from ...continuation.turns import FiniteDifference, TurnOrbit, difference, turn
+from ...continuation.turns import FiniteDifference, TurnOrbit, correct_zero, difference, e_at, hemisphere_place, turn
 from ...families.family import SystemFamily
 
 LOG_SIZE_SCALE = 20.0  # of x: steps along curves are as long in it as in the unit square

@@ -7,7 +7,7 @@ import pytest
 from codim2_app.site.docs.pages import TEXT_FOLDER
 
 import codim2_core as c2
-from codim2_core.bifurcations.census.table import interval
+from codim2_core.bifurcations.census.census import interval
 
 
 def tables():

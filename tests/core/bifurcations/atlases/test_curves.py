@@ -10,8 +10,8 @@ from scipy.optimize import brentq
 
 import codim2_core as c2
 from codim2_core.bifurcations.atlases.atlas import curves_over
-from codim2_core.portrait.layer_problem.equator import equator_cycle
-from codim2_core.portrait.layer_problem.lyapunov import first_lyapunov
+from codim2_core.bifurcations.families.first_lyapunov import first_lyapunov
+from codim2_core.portrait.layer_problem.closed_equator import equator_cycle
 from codim2_core.results.words import say
 
 PSIS = (c2.psi.constant(), c2.psi.tanh(), c2.psi.hill(3), c2.psi.exponential(), c2.psi.custom("1/(1+s)**2"))

@@ -10,10 +10,8 @@ import pytest
 from scipy.integrate import dblquad
 
 import codim2_core as c2
-from codim2_core.bifurcations.census.census import CHUNK_SYSTEMS, FEW
-from codim2_core.bifurcations.census.names import IMPOSSIBLE, PORTRAIT_NAMES, _filter
-from codim2_core.bifurcations.census.table import interval
-from codim2_core.bifurcations.census.tally import normal, quadratic
+from codim2_core.bifurcations.census.census import CHUNK_SYSTEMS, FEW, interval
+from codim2_core.bifurcations.census.tally import IMPOSSIBLE, PORTRAIT_NAMES, _filter, normal, quadratic
 
 PSI = c2.psi.constant()
 

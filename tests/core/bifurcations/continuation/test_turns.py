@@ -3,8 +3,7 @@
 import pytest
 
 from codim2_core import ELinear, System, psi
-from codim2_core.bifurcations.continuation.section_base import SectionBase
-from codim2_core.bifurcations.continuation.turns import VariedRay
+from codim2_core.bifurcations.continuation.turns import SectionBase, VariedRay
 from codim2_core.portrait.cycles.ray_section import TurnSection
 from codim2_core.portrait.layer_problem.problem import LayerProblem
 from codim2_core.portrait.layer_problem.vary import value_of, vary

@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 import codim2_core as c2
-from codim2_core.bifurcations.diagrams.class_line import class_line
-from codim2_core.bifurcations.diagrams.classes import classes_over
+from codim2_core.bifurcations.diagrams.classes import class_line, classes_over
 
 PSIS = (c2.psi.constant(), c2.psi.tanh(), c2.psi.hill(3), c2.psi.custom("1/(1+s)**2"))
 numbers = st.one_of(st.floats(-2, 2).map(lambda v: round(v, 3)), st.sampled_from([-1.0, 0.0, 0.5, 1.0]))

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from codim2_core import ELinear, bifurcations, classify, critical_sets, equator_equilibria, psi
 from codim2_core.bifurcations.families.disc import cusps, saddle_node_force
-from codim2_core.bifurcations.plane.borders import border_reach, critical_lines, saddle_node_lines
+from codim2_core.bifurcations.plane.curve import border_reach, critical_lines, saddle_node_lines
 from codim2_core.portrait.layer_problem.linearisation import determinant_sign
 from tests.core.strategies import coefficient
 

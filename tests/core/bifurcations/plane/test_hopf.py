@@ -11,8 +11,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, bifurcations, critical_sets, psi
+from codim2_core.bifurcations.families.first_lyapunov import first_lyapunov
 from codim2_core.portrait.layer_problem.linearisation import determinant_sign
-from codim2_core.portrait.layer_problem.lyapunov import first_lyapunov
 from tests.core.exact_psi import regularisation
 from tests.core.strategies import coefficient
 

@@ -8,8 +8,8 @@ import pytest
 from scipy.optimize import brentq
 
 from codim2_core import PeriodicStatus, System, periodic_motion, psi, reference, response_curve
-from codim2_core.motion.periodic.multipliers import matching_distances
 from codim2_core.motion.periodic.result import KINDS_OF_CHANGE, change_point
+from codim2_core.motion.periodic.shooting import matching_distances
 from codim2_core.results.words import recognise
 
 from .closed_forms import CIRCLE, LINE, DenHartog, Rotating

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, System, psi
-from codim2_core.portrait.cycles.displacement_sampling import unresolved_intervals
+from codim2_core.portrait.cycles.cycle_search import unresolved_intervals
 from codim2_core.portrait.cycles.limit_cycles import limit_cycles
 
 # (a, b, d), f, n of the Hill family, and how many cycles: each was missed by samples judged by their heights

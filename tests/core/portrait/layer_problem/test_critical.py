@@ -10,7 +10,7 @@ from hypothesis import given
 
 from codim2_core import ELinear, System, critical_sets, equator_cycle, hemisphere, psi
 from codim2_core.numerics.trigonometric import INPUT_ROUNDING
-from codim2_core.portrait.layer_problem.location import Existence, locate
+from codim2_core.portrait.layer_problem.linearisation import Existence, locate
 from tests.core.strategies import regularisations, systems
 
 

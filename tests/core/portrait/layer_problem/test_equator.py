@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from codim2_core.portrait.layer_problem.equator import equator_cycle, equator_equilibria
+from codim2_core.portrait.layer_problem.closed_equator import equator_cycle
+from codim2_core.portrait.layer_problem.equator import equator_equilibria
 from codim2_core.systems.elinear import ELinear
 from tests.core.exact_trigonometric import count_equilibria, polished, theta_coefficients
 

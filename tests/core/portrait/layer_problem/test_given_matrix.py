@@ -9,7 +9,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import ELinear, System, psi
-from codim2_core.portrait.layer_problem.location import Existence, locate
+from codim2_core.portrait.layer_problem.linearisation import Existence, locate
 
 HALVES = [Fraction(k, 2) for k in range(-6, 7)]
 # -A has the zeros of A for -f, which lie opposite: half of all matrices say everything

@@ -5,8 +5,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import psi
-from codim2_core.portrait.orbits.both_directions import MAX_DURATION, MIN_DURATION, drawn_duration
-from codim2_core.portrait.orbits.trajectories import Status
+from codim2_core.portrait.orbits.trajectories import MAX_DURATION, MIN_DURATION, Status, drawn_duration
 
 
 def ends(scene):

@@ -8,7 +8,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, System, examples, presets, psi
-from codim2_core.portrait.theorems.certificates import Verdict, certificates
+from codim2_core.portrait.theorems.certificates import certificates
+from codim2_core.portrait.theorems.facts import Verdict
 from codim2_core.portrait.theorems.sliding_claims import psi_claims
 from tests.core.general_systems import polynomials
 from tests.core.strategies import coefficient, regularisations, systems

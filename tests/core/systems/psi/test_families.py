@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
+from codim2_core.bifurcations.families.first_lyapunov import psi_derivatives
 from codim2_core.formulas.expression import parse
-from codim2_core.portrait.layer_problem.lyapunov import psi_derivatives
 from codim2_core.portrait.layer_problem.vary import limits, names, value_of, vary
 from codim2_core.systems.psi import FAMILIES, Family, make, register, unregister
 from codim2_core.systems.psi.constructors import comparison_families
