@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Python the same
     from . import bifurcations
-    from .bifurcations.atlases.atlas import Atlas, AtlasCurve, AtlasPoint, atlas
-    from .bifurcations.atlases.result import AtlasRegion
+    from .bifurcations.atlases.atlas import atlas
+    from .bifurcations.atlases.result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion
     from .bifurcations.census.census import Census, census
     from .bifurcations.diagrams.equilibrium_branches import branches
     from .bifurcations.diagrams.result import Branches

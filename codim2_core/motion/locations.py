@@ -28,7 +28,7 @@ from .initial_value.field import Field, field
 from .initial_value.slow_manifold import solve_critical
 
 MANIFOLD_MARGIN = 2.0  # times the first-order distance of the slow manifold
-FLOOR = 1e-3  # in p: what an orbit that runs into the set is given besides
+FLOOR = 1e-3  # in p: added for an orbit that runs into the set
 MAX_DISTANCE = 0.25  # in p: near a fold, and near the equator, the expansion promises nothing
 
 

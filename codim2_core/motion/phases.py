@@ -34,7 +34,7 @@ PASSING = (
 )
 SAME_SET_DISTANCE = 0.1  # in e: two runs on one set, interrupted, whose e are no further apart
 TURNS = 2.0  # round the middle of a stay at Sigma, from which on a limit cycle is searched for
-ON_CYCLE = 0.04  # in p, besides eps: distance to a cycle that is followed
+ON_CYCLE = 0.04  # in p, in addition to eps: distance to a cycle that is followed
 ASKED = 7  # states of a stay that are held against the limit cycles at their z
 
 

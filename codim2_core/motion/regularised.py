@@ -1,6 +1,6 @@
 """Motions of the regularised system, eps > 0, through slip, entry, sliding and exit.
 
-The past of a state: a motion followed backwards, told forwards, as far as the state tells where it came from.
+The past of a state: integrated backwards, up to where it is no longer unique.
 
 Backwards what attracts repels. Next to a set that a motion follows, differences grow by the rate of its attraction,
 which is of order 1/eps while the state itself hardly moves; once they have grown from the tolerance to a hundredth,
@@ -53,7 +53,7 @@ class Past(NamedTuple):
 
     @classmethod
     def from_run(cls, run: Simulation, system: AnySystem, psi: Psi, rtol: float, atol: float) -> Past:
-        """Return what a motion that was followed backwards, in the time -t, tells of the past."""
+        """Return the past from a motion that was followed backwards, in the time -t."""
         growth, most = _growth(run, system, psi, atol / rtol), math.log(AGREE / rtol)
         k = int(np.searchsorted(np.cumsum(growth), most, side="right"))
         if k == len(growth):
@@ -63,12 +63,12 @@ class Past(NamedTuple):
         )
 
     @classmethod
-    def upto(cls, run: Simulation, told: Dense, why: str) -> Past:
-        """Return what the first part of a motion that was followed backwards tells."""
-        motion = told.backwards()
+    def upto(cls, run: Simulation, known: Dense, why: str) -> Past:
+        """Return the past from the first part of a motion that was followed backwards."""
+        motion = known.backwards()
         first = float(motion.times[0])
         events = tuple(tuple(t for t in (-times[::-1]).tolist() if t >= first) for times in run.events)
-        if told.times[-1] == run.times[-1]:
+        if known.times[-1] == run.times[-1]:
             detail = run.reason.removeprefix(run.status.value).strip()
             return cls(motion, run.status, detail, run.evaluations, events)
         return cls(motion, SimulationStatus.FORGOTTEN, say(why, t=first), run.evaluations, events)
@@ -112,7 +112,7 @@ def simulate_segments(
     ]
     motion, status = dense(float(times[0]), starts[0], parts), runs[-1].status
     detail = runs[-1].reason.removeprefix(status.value).strip()
-    run = asked.told(motion, status, detail, sum(run.evaluations for run in runs))
+    run = asked.result(motion, status, detail, sum(run.evaluations for run in runs))
     cuts = np.cumsum([0, *(len(motion.lengths) for motion in motions)])
     return run, tuple(cuts.tolist()), np.array([motion.states[-1] for motion in motions])
 
@@ -143,7 +143,7 @@ class RegularisedRun:
             events=tuple(map(reverse_event, self.events)),
         )
         pasts = (Past.from_run(back.one(state), self.system, self.psi, self.rtol, self.atol) for state in states)
-        return tuple(self.told(*past) for past in pasts)
+        return tuple(self.result(*past) for past in pasts)
 
     def one(self, first: Array) -> Simulation:
         """Follow one motion."""
@@ -152,7 +152,7 @@ class RegularisedRun:
             self, EventWatch(self.events, self.span, first),
         )  # fmt: skip
         motion, status, detail = run.outcome()
-        return self.told(
+        return self.result(
             motion, SimulationStatus[status], detail, run.evaluations, run.watch.times, run.jumps, tuple(run.turns)
         )
 
@@ -160,7 +160,7 @@ class RegularisedRun:
         """Return e_Psi (2,) of a state."""
         return smoothed_direction(self.psi, self.eps, state[None, :2])[0][0].tolist()
 
-    def told(
+    def result(
         self,
         motion: Dense,
         status: SimulationStatus,

@@ -285,7 +285,7 @@ class Simulation(DenseMotion):
         """Differentiate the motion by its start and by numbers of its system.
 
         In the limit the derivatives go through arrival at Sigma, sliding on critical sets, crossing and exit at the
-        equator. Left out, as columns of zeros, is what no derivative tells: (x, y) of a start on Sigma itself, and in
+        equator. Left out, as columns of zeros, is what has no derivative: (x, y) of a start on Sigma itself, and in
         an invariant line that repels what leads out of it.
 
         Parameters
@@ -345,8 +345,8 @@ class Simulation(DenseMotion):
         named = dict(zip(("x", "y", *SLOW_NAMES), states.T, strict=False))
         starts = [phase.t_start for phase in self.phases]
         phases = [self.phases[i - 1] for i in np.searchsorted(starts, when, side="right") if i]  # as `phase_at`
-        told = {"phase": [phase.kind for phase in phases], "onto": [phase.onto for phase in phases]} if starts else {}
-        return {"t": when, **named, **told}
+        own = {"phase": [phase.kind for phase in phases], "onto": [phase.onto for phase in phases]} if starts else {}
+        return {"t": when, **named, **own}
 
 
 def simulation(

@@ -199,7 +199,7 @@ def _case(coefficients: Coefficients) -> tuple[str | None, list[Degeneracy]]:
 
 
 def _arrives(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> bool:
-    """Whether some trajectory reaches Sigma, as far as first order tells."""
+    """Whether some trajectory reaches Sigma, to first order."""
     if equator.all_directions or cycle is not None:
         return cycle is None or cycle.exponent < 0.0
     neutral = radially_neutral_ones(equator)

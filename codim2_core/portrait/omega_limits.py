@@ -35,10 +35,10 @@ ON_C = -1
 
 def predicted_limit_sets(problem: LayerProblem, states: Array) -> list[int | None]:
     """Return to which cycle, from 0 inside, orbits of states (n, 3) go, or `ON_C`; None where it is not decided."""
-    told, question = _predictions(problem), states.tobytes()
-    if question not in told:
-        told[question] = _predict(problem, np.ascontiguousarray(states))
-    return told[question]
+    known, question = _predictions(problem), states.tobytes()
+    if question not in known:
+        known[question] = _predict(problem, np.ascontiguousarray(states))
+    return known[question]
 
 
 @found_once()

@@ -48,7 +48,7 @@ class Style:
 
     size: float = 120.0  # width of the picture in mm, 40 to 400
     theme: str = "light"  # "paper" is black and white
-    legend: bool = True  # what stands in and around the picture besides
+    legend: bool = True  # whether it has a legend
     labels: bool = True
     ticks: bool = False
     title: bool = False

@@ -37,12 +37,12 @@ def figure_page(view: View, sliders: Sequence[str], explorer: str) -> bytes:
     given = {one.name: [one.low, one.high] for one, text in zip(chosen, sliders, strict=True) if "=" in text}
     view = replace(view, values={**view.values, "ranges": {**view.values["ranges"], **given}})
     query = f"{view.query}&controls={','.join(one.name.removeprefix(OWN) for one in chosen)}"
-    told = "; ".join(filter(None, (system_words(view), psi_words(view), place_words(view))))
+    setting = "; ".join(filter(None, (system_words(view), psi_words(view), place_words(view))))
     title, folder = view.title, explorer.rstrip("/")
     picture = re.sub(r"^<\?xml.*?\?>\s*", "", figure(view, STYLE))
     body = (
         f'<div data-codim2="{escape(query)}">{picture}</div>\n'
-        f'<p class="note">At first: {escape(told)}.</p>\n'
+        f'<p class="note">At first: {escape(setting)}.</p>\n'
         f'<script type="module" src="{escape(folder)}/figures.js"></script>'
     )
     return html_page(title, body).encode()

@@ -119,18 +119,18 @@ def csv_zip(view: View) -> bytes:
     A file begins with lines after ``#``: what it is data of, then each column with its unit and meaning, as
     ``pandas.read_csv(file, comment="#")`` leaves out.
     """
-    told = [f"{name}: {said}" for name, said in facts(view).items()]
+    lines = [f"{name}: {said}" for name, said in facts(view).items()]
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as files:
 
         def put(name: str, text: str) -> None:
             files.writestr(zipfile.ZipInfo(name, WHEN), text.encode(), zipfile.ZIP_DEFLATED)
 
-        put("README.txt", "\n".join([*told, "", "Coordinates are those of the picture: the unit disc is the projected",
+        put("README.txt", "\n".join([*lines, "", "Coordinates are those of the picture: the unit disc is the projected",
                                      "hemisphere, outside it is the system without regularisation.", ""]))  # fmt: skip
         for name, table in data_of(view).items():
             text = io.StringIO()
-            for line in (*told, *(f"{column} [{unit}]: {said}" for column, (unit, said) in table.columns.items())):
+            for line in (*lines, *(f"{column} [{unit}]: {said}" for column, (unit, said) in table.columns.items())):
                 text.write(f"# {line}\n")
             writer = csv.writer(text, lineterminator="\n")
             writer.writerow(table.columns)
@@ -165,8 +165,8 @@ def npz(view: View) -> bytes:
     return packed.getvalue()
 
 
-def _header_lines(told: Mapping[str, str]) -> str:
-    return "\n".join(f"{name}: {said}" for name, said in told.items())
+def _header_lines(facts_of_view: Mapping[str, str]) -> str:
+    return "\n".join(f"{name}: {said}" for name, said in facts_of_view.items())
 
 
 DATA: Mapping[str, Callable[[View], bytes]] = MappingProxyType(

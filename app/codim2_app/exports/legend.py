@@ -69,11 +69,11 @@ def entries(header: Mapping[str, Any], blocks: Mapping[str, Any], layers: Collec
 
 
 def _line_entries(layer: Any, blocks: Mapping[str, Any]) -> Iterator[Entry]:
-    told = set()
+    listed = set()
     for part in layer.parts:
         words = LEGEND_PARTS.get(part.name, layer.words)
-        if len(blocks.get(f"{part.name}.xy", ())) and words not in told:
-            told.add(words)
+        if len(blocks.get(f"{part.name}.xy", ())) and words not in listed:
+            listed.add(words)
             yield Entry(words, part=part)
 
 

@@ -173,8 +173,8 @@ def _page(
     }  # fmt: skip
     data = json.dumps(settings, separators=(",", ":")).replace("<", "\\u003c")
     script = bundle(SCRIPTS / "live.js").replace("</script", "<\\/script")
-    told = "; ".join(filter(None, (system_words(view), psi_words(view), place_words(view))))
-    at_first = f'<p class="note">At first: {escape(told)}. Made by codim2 {__version__}.</p>'
+    setting = "; ".join(filter(None, (system_words(view), psi_words(view), place_words(view))))
+    at_first = f'<p class="note">At first: {escape(setting)}. Made by codim2 {__version__}.</p>'
     return html_page(
         view.title,
         '<canvas role="img" aria-label="The projected hemisphere: phase portrait">'

@@ -96,11 +96,11 @@ def scenery(view: View, style: Style) -> Scenery:
     lines = [(name, orbit.time, values) for name, values in zip(names, orbit.xy.T, strict=True)]
     colours = paper() if style.theme == "paper" else themes()[style.theme]
     over_time, frame = line_chart(LineChart(lines, time, ""), colours)
-    beside = _open_png(png(over_time, CHART))
-    drawn = Image.new("RGB", (portrait.width + beside.width, max(portrait.height, beside.height)), colours["page"])
-    corner = portrait.width, (drawn.height - beside.height) // 2
+    right = _open_png(png(over_time, CHART))
+    drawn = Image.new("RGB", (portrait.width + right.width, max(portrait.height, right.height)), colours["page"])
+    corner = portrait.width, (drawn.height - right.height) // 2
     drawn.paste(portrait, (0, 0))
-    drawn.paste(beside, corner)
+    drawn.paste(right, corner)
     place = Placement(view.seen, style.size * MM, PX, decimals=2)
     return Scenery(drawn, orbit, place, frame, corner, (colours["motion"], colours["page"]))
 

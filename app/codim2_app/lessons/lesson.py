@@ -94,7 +94,7 @@ class Lesson:
     key: str  # the name of its file without ending; the key in links
     title: str
     summary: str  # one line for the list of lessons
-    values: Mapping[str, Any]  # of the controls, when the lesson opens: those of its portrait, and what it sets besides
+    values: Mapping[str, Any]  # of the controls, when the lesson opens: those of its portrait, and its own
     # in the order of the file; of a lecture, prose is what its lecturer reads
     parts: tuple[Prose | LessonQuestion | LectureView, ...]
 

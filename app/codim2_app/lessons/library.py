@@ -261,7 +261,7 @@ def lessons() -> Mapping[str, Lesson]:
 
 
 def add_lessons(found: Mapping[str, Lesson]) -> None:
-    """Offer lessons besides the course, as `codim2 serve --lessons DIR` does; one of the same key replaces another."""
+    """Offer more lessons, as `codim2 serve --lessons DIR` does; one of the same key replaces another."""
     _own.update(found)
     lessons.cache_clear()
 

@@ -1,6 +1,6 @@
 """The panel "Along z": sliding, crossing and unstable parts of Sigma, the slow flow, and its equilibria.
 
-One slow variable runs; with two or more of them the plane of the first two is shown besides.
+One slow variable runs; with two or more of them the plane of the first two is shown as well.
 """
 
 from __future__ import annotations
@@ -63,9 +63,9 @@ def _add_drift(draft: FrameContext) -> None:
         return  # limit cycles need the integrator
     found = attracting_set(scene["critical"], lambda: scene["cycles"], draft.now.get("drifts on"))
     draft.now["drifts on"] = None if found is None else found.e
-    told = None if found is None else {"on": found.name, "flow": [float(v) for v in found.slow_flow]}
-    if draft.now.get("drift", ()) != told:
-        draft.now["drift"] = draft.header["drift"] = told
+    drift = None if found is None else {"on": found.name, "flow": [float(v) for v in found.slow_flow]}
+    if draft.now.get("drift", ()) != drift:
+        draft.now["drift"] = draft.header["drift"] = drift
 
 
 def slow_spans(system: System_, values: Mapping[str, Any]) -> tuple[tuple[float, float], ...]:

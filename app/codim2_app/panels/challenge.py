@@ -27,5 +27,5 @@ def add(draft: FrameContext) -> None:
         draft.header["challenge"] = {"goal": text, "error": str(error)}
         return
     if draft.ready or not goal.names & COMPILED:
-        told = {"goal": text, "words": _WORDS.get(text, text), "met": holds(goal, draft.scene)}
-        draft.header["challenge"] = {**told, "now": stands(goal, draft.scene)}
+        challenge = {"goal": text, "words": _WORDS.get(text, text), "met": holds(goal, draft.scene)}
+        draft.header["challenge"] = {**challenge, "now": stands(goal, draft.scene)}

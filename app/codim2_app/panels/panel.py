@@ -20,7 +20,7 @@ class Panel:
     title: str  # the word on its tab
     add: Callable[[FrameContext], None]  # adds to a frame under way what the open panel shows
     tip: str = ""  # what is seen in it, in one sentence, for the tab's tooltip
-    # what its script gets besides, as ``tools.settings``; JSON
+    # what its script gets as ``tools.settings``; JSON
     settings: Mapping[str, Any] = field(default_factory=dict)
     folder: Path = PANEL_SCRIPTS  # where KEY.js is and, if the panel has rules of its own, KEY.css
 

@@ -175,7 +175,7 @@ def _serve(chosen: argparse.Namespace) -> None:
         per_address=chosen.per_address,
         proxied=chosen.proxied,
         rooms=chosen.rooms,
-        told=_say_if_compiled,
+        report=_say_if_compiled,
         engine=None if chosen.pyodide is None else _engine(chosen.pyodide, chosen.kernels),
         **long,
     )

@@ -1,4 +1,4 @@
-"""The explorer's own page, over one websocket: requests in JSON, frames in bytes, and what a page asks for besides.
+"""The explorer's own page, over one websocket: requests in JSON, frames in bytes, and other requests of a page.
 
 ``/live`` with the query of the page's address. The server begins with a text, ``{"config", "offered"}``, and the first
 frame. A page then sends one JSON object a message: ``{"id", "set", "rest", "window"}`` asks for a frame, which comes
@@ -79,7 +79,7 @@ MOST_OF_ONE = 200
 RETURN_SECONDS, MAX_RETURN_SECONDS = 0.03, 20.0
 #: Seconds after which a page that has asked nothing gives its place to another one, where all are taken.
 RESTING_SECONDS = 180.0
-#: Names of what is asked or told besides frames.
+#: Names of requests and messages other than frames.
 ASIDE = frozenset({"take", "room", "note"})
 #: Why a connection is closed, as codes of websockets: all places are taken; a fault here; a message that no page sends;
 #: the page has rested for long, and another one has its place.
@@ -212,7 +212,7 @@ class LiveConnection(WebSocketHandler):
         return self.answers is not None and self.answers.visitor.is_in_a_room
 
     def check_origin(self, origin: str) -> bool:
-        """Let pages of this server in, and of the hosts that it was told of."""
+        """Let pages of this server in, and of the hosts that it was given."""
         app: Any = self.application
         return is_known(origin, app.names)
 

@@ -29,7 +29,7 @@ from ..picture.frame.work_queue import WorkQueue
 from ..picture.frame.workers import Workers, processors
 from ..site.docs.docs_handlers import MAKER, Docs, ToDocs
 from ..view import warmup
-from ..view.compiling.steps import Told
+from ..view.compiling.steps import Report
 from ..view.first_markup import policy
 from ..view.lecture_page import SHEETS, lecture_html
 from ..view.markup import edition
@@ -194,7 +194,7 @@ def make_server(
     per_address: int = MOST_OF_ONE,
     proxied: bool = False,
     rooms: int = MOST_ROOMS,
-    told: Told | None = None,
+    report: Report | None = None,
     engine: EngineFiles | None = None,
     executor: Executor | None = None,
     at_once: int = 1,
@@ -208,7 +208,7 @@ def make_server(
     address : str
         Where to listen; "0.0.0.0" for all interfaces.
     allow_origin : sequence of str
-        Host names (with port) whose pages may open the websocket, besides this address.
+        Host names (with port) whose pages may open the websocket, in addition to this address.
     processes : int
         Number of server processes that share the port.
     workers : int
@@ -216,7 +216,7 @@ def make_server(
     prefix : str
         The path below which a proxy shows this server.
     frame_ancestors : str
-        Who may embed the pages besides this server, as Content-Security-Policy says it.
+        Who may embed the pages in addition to this server, as Content-Security-Policy says it.
     sessions : int
         Open pages of a process, beyond which a new one is asked to wait.
     per_address : int
@@ -225,8 +225,8 @@ def make_server(
         Whether a proxy in front says in X-Real-IP whose a request is; nobody else may reach the server then.
     rooms : int
         Rooms that lecturers have open at once, of a process; 0 for none.
-    told : callable, optional
-        Told what has been compiled, see `steps.warm_all`.
+    report : callable, optional
+        Called with what has been compiled, see `steps.warm_all`.
     engine : EngineFiles, optional
         With which pages compute on their visitors' devices.
     executor : Executor, optional
@@ -240,7 +240,7 @@ def make_server(
     turns = WorkQueue(executor, at_once)
     serve_with(turns)
     warmup_now = processes == 1
-    begin = partial(warmup.start, partial(_report_warm_up, told), patience=warmup.POLL_SECONDS)
+    begin = partial(warmup.start, partial(_report_warm_up, report), patience=warmup.POLL_SECONDS)
     if warmup_now:
         begin()
     parent = os.getpid()
@@ -299,10 +299,10 @@ def make_server(
     return server
 
 
-def _report_warm_up(told: Told | None, what: str, seconds: float, done: int, of: int) -> None:
+def _report_warm_up(report: Report | None, what: str, seconds: float, done: int, of: int) -> None:
     """Tell what has been compiled; once it is all, it is no garbage: no search stops a visitor for it."""
-    if told is not None:
-        told(what, seconds, done, of)
+    if report is not None:
+        report(what, seconds, done, of)
     if done == of:
         gc.freeze()
 

@@ -37,7 +37,7 @@ class Rota:
         self._coming: dict[str, deque[Callable[[], None]]] = {}  # by network address, in the order of their turns
         self._task: asyncio.Task[None] | None = None
         self._turns = 0
-        self.waited: Callable[[float], object] = lambda seconds: None  # noqa: ARG005 (told how long one has waited)
+        self.waited: Callable[[float], object] = lambda seconds: None  # noqa: ARG005 (called with how long one has waited)
 
     def ask(self, page: Page) -> None:
         """Give a page a turn, unless it waits for one."""

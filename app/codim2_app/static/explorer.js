@@ -30,7 +30,7 @@ import {readFrame} from "./picture/frames.js"
 import {Picture} from "./picture/picture.js"
 import {say} from "./dom.js"
 import {SAYS} from "./words.js"
-import {addDialogs, benchOf, besideOf, grabOf, handsOf, liftOf, panelsOf, pointingOf, roomOf} from "./parts.js"
+import {addDialogs, benchOf, secondOf, grabOf, handsOf, liftOf, panelsOf, pointingOf, roomOf} from "./parts.js"
 
 const FULL = 1013 // as a code of a websocket: all places are taken
 
@@ -46,12 +46,12 @@ export class Explorer {
     this.setting = new Set(config.setting)
     this.numbers = new Set(config.numbers)
     this.controls = /** @type {Record<string, any>} */ ({})
-    this.choice = "" // of a system, as the server has told of it
+    this.choice = "" // of a system, as the server sent it
     this.changed = false
     this.hidden = [] // layers that a question hides until it is answered
     this.typed = new Set() // names of what was typed and is not noted yet
     this.views = /** @type {import("./page/views.js").Views | null} */ (null)
-    this.beside = /** @type {any} */ (null) // the second portrait, or in it the first
+    this.second = /** @type {any} */ (null) // the second portrait, or in it the first
     this.alone = config.page && !config.look.embed
     this.inside = config.page && config.look.embed && window.parent !== window && window.name === SECOND
     this.asked = new URLSearchParams(globalThis.location?.search).get("room") // steps write the address anew
@@ -85,13 +85,13 @@ export class Explorer {
     this.opening = opening
     new Sheets(root, () => this.sentences.say())
     keepFolds(root, (name) => JSON.stringify(values[name]) !== JSON.stringify(config.defaults[name]))
-    this.theme = new Theme(root, config, (name) => { picture.paint(name); this.beside?.look?.() })
+    this.theme = new Theme(root, config, (name) => { picture.paint(name); this.second?.look?.() })
     if (config.look.seen.length) picture.seen = config.look.seen
     this.room = this.alone && !config.worker ? roomOf(this) : null
     if (config.page) addDialogs(this)
     const bars = [...root.querySelectorAll(".banner, .room-bar, .goal-bar")] // what they take is no part of the page's height
     if (globalThis.ResizeObserver) for (const bar of bars) new ResizeObserver(() => root.style.setProperty("--bars", `${bars.reduce((sum, one) => sum + one.offsetHeight, 0)}px`)).observe(bar)
-    this.beside = besideOf(this)
+    this.second = secondOf(this)
     this.showRefused()
     this.steps = undoable(root, plot, {browsed: config.page && !this.inside, page: config.page}, rest, {
       look: () => structuredClone({values, seen: picture.seen}),
@@ -158,8 +158,8 @@ export class Explorer {
     rest.note("opening", true)
     requestAnimationFrame(() => setTimeout(() => { // the panel costs as much as all else: the picture is painted before it
       this.showPanels()
-      this.beside?.sync?.()
-      this.beside?.started?.()
+      this.second?.sync?.()
+      this.second?.started?.()
       this.room?.begin(this.asked)
       if (this.config.look.lift) this.picture.lift?.swing(true)
       rest.note("opening", false)
@@ -185,7 +185,7 @@ export class Explorer {
     if (this.numbers.has(name)) this.panels.draw(values)
     if (this.setting.has(name)) this.portraits.tell()
     this.keepLink()
-    this.beside?.moved([name])
+    this.second?.moved([name])
   }
 
   // A panel moves controls: {name: value}.
@@ -214,7 +214,7 @@ export class Explorer {
     }
     this.systems.set(values)
     this.showPanels(); this.showLayers(); this.keepLink()
-    this.beside?.moved(Object.keys(wanted))
+    this.second?.moved(Object.keys(wanted))
   }
 
   // And say of which portrait they are.
@@ -278,7 +278,7 @@ export class Explorer {
     this.showPanels(); this.showLayers(); this.portraits.tell()
     if (asked) this.steps.amend()
     else this.keepLink()
-    this.beside?.sync?.()
+    this.second?.sync?.()
   }
 
   // What is pinned may be called otherwise after a frame: no step of the history.
@@ -301,7 +301,7 @@ export class Explorer {
     if (!late.length) this.changed = false
     this.root.classList.toggle("changed", this.changed)
     this.picture.apply(frame)
-    this.beside?.applied?.(header)
+    this.second?.applied?.(header)
     this.followObjects(header)
     if (header.launched) this.spoken.speak(header.launched, this.values.orbits)
     this.requests.restLater(late.length > 0)

@@ -146,7 +146,7 @@ export function addDialogs(explorer) {
 }
 
 /** The second portrait, or in its frame the first, or none. @param {Explorer} explorer @returns {any} */
-export function besideOf(explorer) {
+export function secondOf(explorer) {
   const {root, config, values, picture, theme} = explorer
   if (explorer.inside) {
     return new Seconded(root, {
@@ -155,13 +155,13 @@ export function besideOf(explorer) {
     }, values)
   }
   if (!explorer.alone) return null
-  const beside = new Second(root, config, {
+  const second = new Second(root, config, {
     values, set: (wanted) => explorer.put(wanted), keep: (own) => { values.beside = own; explorer.keepLink() },
     look: () => ({seen: picture.seen, theme: theme.name, times: picture.times}),
     address: (wanted, own) => writeLink(wanted, picture.window && picture.seen, {...config, look: own}),
   })
-  picture.viewed(() => beside.look())
-  const beamer = new Beamer(root, picture, config.look.beamer, (on) => { config.look.beamer = on; beside.look(); explorer.steps.rewrite() })
+  picture.viewed(() => second.look())
+  const beamer = new Beamer(root, picture, config.look.beamer, (on) => { config.look.beamer = on; second.look(); explorer.steps.rewrite() })
   explorer.views = new Views(root, {
     values, first: config.defaults, brought: (config.look.views ?? []).splice(0), shown: () => beamer.on > 0, name: () => explorer.find(".portrait-name").textContent,
     seen: () => picture.window && picture.seen, move: (wanted) => explorer.move(wanted),
@@ -170,8 +170,8 @@ export function besideOf(explorer) {
   if (!config.worker) {
     new LectureScreen({
       views: explorer.views, rows: () => explorer.room?.rows ?? null, code: () => explorer.room?.code ?? "", room: () => explorer.room?.open(), put: (wanted) => explorer.put(wanted),
-      beam: (on) => { beamer.show(on); beamer.told(on) },
+      beam: (on) => { beamer.show(on); beamer.changed(on) },
     })
   }
-  return beside
+  return second
 }

@@ -35,14 +35,14 @@ export function menu(box, {ask, stop, film, theme, address, sliders}) {
   for (const kind of TYPESET) find(`[data-kind=${kind}]`).hidden = !film
   find(".stop-making").onclick = stop
   const buttons = /** @type {HTMLButtonElement[]} */ ([...box.querySelectorAll("button[data-kind]")])
-  const told = find(".making")
-  told.textContent = ""
+  const making = find(".making")
+  making.textContent = ""
 
   const ranged = (name) => { const {low, high} = there.find((slider) => slider.name === name); return `${name}=${low},${high}` }
   const make = async (kind) => {
     const chosen = [...new Set([find(".first-slider").value, find(".second-slider").value])].filter(Boolean)
     const look = find(".look").value || theme()
-    const answer = await ask({kind: {png: "svg", play: "gif"}[kind] ?? kind, theme: look, legend: find(".legend-too").checked, ...find(".poster-too").checked && {link: await address()}, sliders: kind === "play" ? ["play"] : moving.includes(kind) ? chosen.map(ranged) : []}, (done, all) => { told.textContent = `Drawing the film: ${done} of ${all} pictures …` })
+    const answer = await ask({kind: {png: "svg", play: "gif"}[kind] ?? kind, theme: look, legend: find(".legend-too").checked, ...find(".poster-too").checked && {link: await address()}, sliders: kind === "play" ? ["play"] : moving.includes(kind) ? chosen.map(ranged) : []}, (done, all) => { making.textContent = `Drawing the film: ${done} of ${all} pictures …` })
     if (answer.error) return answer.error
     const {file} = answer
     const blob = new Blob([file instanceof ArrayBuffer || ArrayBuffer.isView(file) ? file : file.buffer ?? file], {type: answer.type})
@@ -52,11 +52,11 @@ export function menu(box, {ask, stop, film, theme, address, sliders}) {
   for (const button of buttons) {
     button.onclick = async () => {
       for (const one of buttons) one.disabled = true
-      told.textContent = SAYS.making
+      making.textContent = SAYS.making
       find(".stop-making").hidden = !FILMS.includes(button.dataset.kind ?? "")
-      try { told.textContent = await make(button.dataset.kind) } catch (error) { told.textContent = `It could not be made: ${error.message}.` }
+      try { making.textContent = await make(button.dataset.kind) } catch (error) { making.textContent = `It could not be made: ${error.message}.` }
       find(".stop-making").hidden = true
-      told.scrollIntoView?.({block: "nearest"}) // the dialog may be longer than the window
+      making.scrollIntoView?.({block: "nearest"}) // the dialog may be longer than the window
       for (const one of buttons) one.disabled = moving.includes(one.dataset.kind ?? "") && !there.length
       button.focus()
     }

@@ -2,7 +2,7 @@
 // beforehand. All explorers of a page share one worker; each has a port. What takes long goes to another one, which runs
 // this script too, under the name BESIDE.
 
-const told = {bytes: 0, all: 1}, APART = 100 // ms between two tellings
+const progress = {bytes: 0, all: 1}, APART = 100 // ms between two tellings
 const BESIDE = "beside", LATER = 3000 // ms after what is first to be computed there: the first frames come before it
 const FEWEST_PROCESSORS = 2, LEAST_MEMORY = 4 // GB; a device with less computes all in one worker
 const ports = /** @type {Set<MessagePort>} */ (new Set())
@@ -10,9 +10,9 @@ let last = 0
 
 function tell() {
   const now = performance.now()
-  if (now - last < APART && told.bytes < told.all) return
+  if (now - last < APART && progress.bytes < progress.all) return
   last = now
-  for (const port of ports) port.postMessage({loading: told})
+  for (const port of ports) port.postMessage({loading: progress})
 }
 
 const fetched = globalThis.fetch
@@ -21,7 +21,7 @@ const fetched = globalThis.fetch
 globalThis.fetch = async (asked, options) => {
   const answer = await fetched(asked, options)
   if (!answer.ok) throw new Error(`${answer.url}: ${answer.status}`)
-  answer.clone().body.pipeTo(new WritableStream({write(part) { told.bytes += part.length; tell() }}))
+  answer.clone().body.pipeTo(new WritableStream({write(part) { progress.bytes += part.length; tell() }}))
   return answer // itself: a browser keeps the compiled form of what it has fetched
 }
 
@@ -30,7 +30,7 @@ const here = (name) => new URL(name, location.href).href
 async function load() {
   const {edition, sizes} = await (await fetched(here("folder.json"))).json()
   const wheel = Object.keys(sizes).find((name) => name.endsWith(".whl"))
-  told.all = ["pyodide/pyodide.asm.wasm", "pyodide/python_stdlib.zip", "pyodide/pyodide-lock.json", wheel, "site.zip"].reduce((sum, name) => sum + sizes[name], 0)
+  progress.all = ["pyodide/pyodide.asm.wasm", "pyodide/python_stdlib.zip", "pyodide/pyodide-lock.json", wheel, "site.zip"].reduce((sum, name) => sum + sizes[name], 0)
   const site = fetch(here("site.zip")).then((answer) => answer.arrayBuffer())
   const {loadPyodide} = await import(here("pyodide/pyodide.mjs"))
   const python = await loadPyodide({indexURL: here("pyodide/"), packages: ["numpy"], stdout: () => {}})
@@ -79,7 +79,7 @@ function send(port, message) {
 // An explorer comes: the query of its address, whether its markup is to be drawn, and its port.
 async function answerExplorer(loading, {search, drawn, port}) {
   ports.add(port)
-  port.postMessage({loading: told})
+  port.postMessage({loading: progress})
   try {
     const engine = (await loading)(search, (message) => send(port, message)), {opening, first, elsewhere, markup} = engine
     port.postMessage({...JSON.parse(opening), first: first.toJs().slice().buffer, elsewhere: elsewhere.toJs(), markup: drawn && markup()})

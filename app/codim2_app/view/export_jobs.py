@@ -64,11 +64,11 @@ class ExportJobs:
             Has a function called by the thread that answers; may be called by any thread.
         """
         about = {"taken": request.get("id", 0) if isinstance(request, Mapping) else 0}
-        told = request if isinstance(request, Mapping) else {}
-        of_proof = told.get("kind") == PROOF
-        if told.get("kind") not in SHOWN:
+        fields = request if isinstance(request, Mapping) else {}
+        of_proof = fields.get("kind") == PROOF
+        if fields.get("kind") not in SHOWN:
             self._film = None  # a newer wish replaces an older, and so does the wish to stop
-        if told.get("stop"):
+        if fields.get("stop"):
             if of_proof:
                 self.frames.jobs.drop(PROOF)
             reply({**about, "error": say("proof stopped" if of_proof else "film stopped")})

@@ -93,7 +93,7 @@ class Frames:
         Says whether all layers of this Psi and system can be drawn without waiting, also while a control may be moving;
         until then trajectories are left out.
     errors : sequence of InputError
-        What the address requested in vain, told with the first frames.
+        What the address requested in vain, sent with the first frames.
     budget : Budget, optional
         What may be computed here and now, where others wait meanwhile; by default everything.
     """
@@ -129,7 +129,7 @@ class Frames:
         self._moving = False  # a control may be
         self._sent: dict[str, Any] = {}
         self._last: tuple[Mapping[str, Any], dict[str, Any], str] = ({}, {}, "")  # see `keep`
-        self._untold: dict[str, Any] = {}
+        self._unsent: dict[str, Any] = {}
 
     def _begin(self, wanted: Mapping[str, Any]) -> None:
         """Start from these values or, where they have no scene, from those of their portrait or the first ones."""
@@ -146,7 +146,7 @@ class Frames:
         """Return the frame for ``{"id": number, "set": {control: value}, "all", "rest": bool}``.
 
         ``all`` asks for every layer again, as a browser does that has just connected; ``rest`` says that no control
-        is moving, so that there is time for what the open panel shows besides. A value that cannot be used, and a
+        is moving, so that there is time for the open panel. A value that cannot be used, and a
         computation that fails, leave the last good picture: ``errors`` then holds the name of the control and a
         sentence, in this frame and in all that follow until that control is given another value. Under the name ""
         is what belongs to no control.
@@ -175,10 +175,10 @@ class Frames:
             errors.setdefault("", header.pop("fault"))
         changed = {name: value for name, value in self.values.items() if value != before[name]}
         self._unpublished.update(changed)
-        told = {name: self.values[name] for name in {**self._untold, **changed}}
-        self._last, self._untold = (sent, told, left), {}
-        if told:
-            header["set"] = told
+        changes = {name: self.values[name] for name in {**self._unsent, **changed}}
+        self._last, self._unsent = (sent, changes, left), {}
+        if changes:
+            header["set"] = changes
         errors = {name: printed_sentence(said) for name, said in errors.items()}
         return self._pack({"id": request.get("id", 0), "errors": errors, "load": load.measure(), **header}, blocks)
 
@@ -203,7 +203,7 @@ class Frames:
 
     def keep(self) -> None:
         """Note that the last frame was not sent: what it said is said by the next one."""
-        self._sent, self._untold, left = dict(self._last[0]), self._last[1], self._last[2]
+        self._sent, self._unsent, left = dict(self._last[0]), self._last[1], self._last[2]
         if left:
             self._notices.append(left)
 

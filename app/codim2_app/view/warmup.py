@@ -83,7 +83,7 @@ def _draw_as_python() -> None:
         outcome = "ready"
 
 
-def _load_all(told: steps.Told, patience: float) -> None:
+def _load_all(report: steps.Report, patience: float) -> None:
     """Load what the scene needs that the explorer opens with, and compute it; then load the rest."""
     global outcome, done
     everything = steps.kernel_steps()
@@ -102,7 +102,7 @@ def _load_all(told: steps.Told, patience: float) -> None:
                 _cold.clear()
             if number == len(everything) + steps.PICTURES:
                 _pictures.set()
-            told(what, time.perf_counter() - began, *done)
+            report(what, time.perf_counter() - began, *done)
     except Exception as error:  # in a thread of its own: /ready says why, and the server answers
         logging.getLogger(__name__).exception("the kernels cannot all be compiled")
         if not outcome:
@@ -118,21 +118,21 @@ def _warm_general_alone() -> None:
         steps.warm_general()
 
 
-def start(told: steps.Told = steps.tell_nobody, patience: float = 0.0) -> None:
+def start(report: steps.Report = steps.report_nothing, patience: float = 0.0) -> None:
     """Begin loading kernels in a background thread; further calls do nothing.
 
     What is not on disk another process compiles meanwhile.
 
     Parameters
     ----------
-    told : callable
+    report : callable
         As in `warm_all`.
     patience : float
         Seconds for which it waits for `page_asked`, and then for `page_sent`.
     """
     with _lock:
         if constant() not in _threads:
-            _start_thread(constant(), _load_all, told, patience)
+            _start_thread(constant(), _load_all, report, patience)
 
 
 def wait() -> bool:

@@ -233,8 +233,8 @@ def _with_more(family: SystemFamily, found: Atlas, *steps: More) -> Atlas:
         whole = step(chart, whole)
     both = curves_with_images(chart, whole.curves[len(known.curves) :])
     curves = [part for one in both for part in clip_curve(one, family)]
-    told = points_with_images(chart, whole.points[len(known.points) :])
-    points = [one for one in told if is_in_range(family, np.array(one.place))]
+    imaged = points_with_images(chart, whole.points[len(known.points) :])
+    points = [one for one in imaged if is_in_range(family, np.array(one.place))]
     return replace(
         found, curves=found.curves + tuple(curves), points=found.points + tuple(points),
         unfinished=tuple(dict.fromkeys(found.unfinished + whole.unfinished)),

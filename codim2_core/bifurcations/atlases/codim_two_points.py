@@ -188,9 +188,9 @@ def _cusps_of_sets(family: SystemFamily, curve: TracedCurve) -> list[SpecialPlac
 def crossings(curves: Sequence[TracedCurve], bounded: bool = True) -> list[SpecialPlace]:
     """Find where two curves cross, or one itself, at two places of the portrait; in the unit square if bounded."""
     found = []
-    told = [one for one in curves if one.kind not in UNREPORTED_KINDS]
-    for i, one in enumerate(told):
-        for other in told[i:]:
+    reported = [one for one in curves if one.kind not in UNREPORTED_KINDS]
+    for i, one in enumerate(reported):
+        for other in reported[i:]:
             for j, k in _crossing_pieces(one, other):
                 at = _solve_crossing(one, other, j, k)
                 if at is not None and not (bounded and _is_outside(at)):

@@ -33,7 +33,7 @@ class AtlasCurve(Tabled):
         Where on the projected hemisphere it happens, of connections the saddle they leave; NaNs where that is nowhere
         in particular.
     numbers : ndarray (m,)
-        A number that tells more: of "Hopf" the first Lyapunov coefficient (negative: a stable cycle is born), of
+        A number: of "Hopf" the first Lyapunov coefficient (negative: a stable cycle is born), of
         "saddle-node" and "pitchfork" lambda_rho, of "transcritical" lambda_theta, in units of the largest |U|; of
         folds and pitchforks of critical sets and of "node-focus" the sign of tr J, of "fold of cycles" the cycle's
         largest distance from the point it goes round, in the projected disc; of loops and heteroclinic cycles the

@@ -3,7 +3,7 @@
 On the equator the net is over (theta, u, v), within it over (c, s, u, v). A curve that keeps within one cell may be
 missed: it is looked for once more from seeds, next to places whose portrait is not that of their region.
 
-Left out are lines on which every direction is a limit direction, where nothing that is zero along a curve tells: an
+Left out are lines on which every direction is a limit direction, where a zero along a curve means nothing: an
 edge on which friction is gone (mu = 0), or a value of one parameter at which U has no part across e.
 """
 
@@ -309,7 +309,7 @@ def _on_one_side(corners: Array) -> NDArray[np.bool_]:
 
     Each alone has both signs in many cells along the other's zeros: where two curves of zeros run side by side, as
     next to a pitchfork, such cells hold none of both. The sum is looked for by Gilbert's algorithm: the point of the
-    corners' convex hull that is nearest to zero, or one so near to it that its direction tells.
+    corners' convex hull that is nearest to zero, or one so near to it that its direction is known.
     """
     size = np.abs(corners).max(axis=1, keepdims=True)
     unit = corners / np.where(size > 0.0, size, 1.0)

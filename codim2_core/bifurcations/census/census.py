@@ -194,10 +194,10 @@ class CountedChunks:
         self.saved = time.monotonic()
 
     def _mark(self) -> str:
-        """Return what tells a census from another one: the first system drawn, Psi, the seed, and what is named."""
+        """Return a fingerprint of the census: the first system drawn, Psi, the seed, and what is named."""
         first = self.plan.drawn(0, 1)[0]
-        told = (repr(first), self.plan.psi.words, self.plan.seed, self.plan.outcomes, self.chunk)
-        return hashlib.sha256(repr(told).encode()).hexdigest()
+        parts = (repr(first), self.plan.psi.words, self.plan.seed, self.plan.outcomes, self.chunk)
+        return hashlib.sha256(repr(parts).encode()).hexdigest()
 
     def _read(self, path: Path) -> None:
         try:

@@ -238,7 +238,7 @@ def loop_end(
     near = sum(now < LOOP_DISTANCE and now < before for now, before in pairs)
     if near and near_limit:
         kind = "homoclinic" if near == 1 else "heteroclinic"
-        limit = limit_value(last.slower, lambda period: period / turn.period)  # a saddle's exponent tells the rate
+        limit = limit_value(last.slower, lambda period: period / turn.period)  # the rate is a saddle's exponent
         at = turn.value if settled or limit is None else limit
         return _make_end(f"{kind} cycle", say(f"becomes {kind}", name=name, value=at), turn, at)
     return None

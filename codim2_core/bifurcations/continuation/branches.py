@@ -400,8 +400,8 @@ class BranchSearch:
                 break
         else:
             return None
-        told = LastCycles(last, states.states, before, earlier.states, slow_sequence(turns[: end + 1]))
-        found = loop_end(self.name, told, self.problem(last.value), self.marked, self.width)
+        last_cycles = LastCycles(last, states.states, before, earlier.states, slow_sequence(turns[: end + 1]))
+        found = loop_end(self.name, last_cycles, self.problem(last.value), self.marked, self.width)
         if not (last.height < BAND_HEIGHT if found is None else found.point.kind == LOOP_THROUGH_EQUATOR):
             return found
         centre, estimate = piece.tracer.family.centre, last.value if found is None else found.point.value

@@ -1,8 +1,8 @@
 """Cycles as closed lines: whether two are one, where one meets a ray, and which a piece of a branch passes.
 
 And whether a branch has passed a loop unseen. Where a cycle becomes a loop through a saddle, the map of first turns
-goes on to larger cycles, or smaller ones, on the other side of the saddle: so steps may lead over it. Which critical
-sets a cycle surrounds tells.
+goes on to larger cycles, or smaller ones, on the other side of the saddle: so steps may lead over it. Then the cycle
+surrounds other critical sets.
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ def _middle_point(tracer: BranchTracer, here: ContinuationPoint, there: Continua
     return None if found is None else tracer.point(found, here.tangent)
 
 
-LOW_SHARE, ROUNDING_OF_HEIGHT = 3.0, 1e-7  # times the height of the last cycle; ebar that p tells
+LOW_SHARE, ROUNDING_OF_HEIGHT = 3.0, 1e-7  # times the height of the last cycle; ebar that p resolves
 SAME_PERIOD_SHARE, SAME_CYCLE_DISTANCE = 1e-5, 1e-4  # of the period, and of the disc: two cycles are one
 
 

@@ -68,9 +68,9 @@ def branches(
     Branches
         Equilibria are found exactly at some fifty values of a grid, and Newton's method solves for the bifurcations
         between them, to the last digits: two that undo each other within a step, to which it does not come, are
-        missed. Changes at a kink of U are found by bisection; what happens exactly at an end of the span is not told.
-        Places are in the axes of the system, which for an `ELinear.from_matrix` are those of its normal form at each
-        value. Branches of cycles are begun at Hopf points, at ends on the equator, and at the cycles seen at some
+        missed. Changes at a kink of U are found by bisection; what happens exactly at an end of the span is not
+        reported. Places are in the axes of the system, which for an `ELinear.from_matrix` are those of its normal form
+        at each value. Branches of cycles are begun at Hopf points, at ends on the equator, and at cycles seen at some
         values: one that has none of these is not seen.
 
     Raises

@@ -1,4 +1,4 @@
-"""The plane of a constant force, U = A e + f: its places told by the critical set, and its curves in closed form.
+"""The plane of a constant force, U = A e + f: places given by the critical set, and curves in closed form.
 
 Over f the critical set is e = -A^-1 f, so all but saddle-nodes of limit directions happens in the disc |e| < 1. There
 everything has the size 1, however narrow the ellipse |A^-1 f| = 1 is. With n = e and t across it the borders are

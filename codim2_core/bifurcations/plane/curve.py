@@ -25,7 +25,8 @@ from ...systems.coefficients import Coefficients
 from ...systems.elinear import ELinear
 from ...systems.psi.constructors import constant
 from ...systems.psi.function import Psi
-from ..atlases.atlas import Atlas, borders_over, curves_over, family_over, with_connections, with_folds_of_cycles
+from ..atlases.atlas import borders_over, curves_over, family_over, with_connections, with_folds_of_cycles
+from ..atlases.result import Atlas
 from ..families.disc import cusps, saddle_node_force
 
 MAX_TURN = math.tau / 360  # the tangent turns by at most this from point to point

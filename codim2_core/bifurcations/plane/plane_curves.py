@@ -15,8 +15,8 @@ from ...systems.elinear import ELinear
 from ...systems.kinds import takes_a_b_d
 from ...systems.psi.constructors import constant
 from ...systems.psi.function import Psi
-from ..atlases.atlas import Atlas
 from ..atlases.cycles.cycle_curves import HALF_OFFSETS
+from ..atlases.result import Atlas
 from ..families.disc import corners, cusps
 from .curve import (
     BifurcationCurve,

@@ -85,7 +85,7 @@ def _invariant(field: Field, n: Array, r: float, z: Array) -> bool:
         found = np.array(field.value(*(q * n).tolist(), *(r * n).tolist(), *z.tolist()))
         return found[:2], found[2:]
 
-    for q in QUICK:  # what is no line is mostly told at once
+    for q in QUICK:  # most that is no line is seen at once
         U = state_at(q, 0.0, z)[0]
         left, right = float(n[0] * U[1]), float(n[1] * U[0])
         if abs(left - right) > EXACT * (abs(left) + abs(right) + float(np.abs(U).max())):

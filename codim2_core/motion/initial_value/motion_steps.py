@@ -143,20 +143,20 @@ class Inspection:
         if self.is_slide:
             paths[:, 2:4] = 0.0
         ends = np.stack([first, steps.ends])
-        told = np.zeros(4)
+        defect = np.zeros(4)
         whole = int(np.argmax(broken)) if broken.any() else len(paths)
         k = whole
         if self.program is not None:
             allowed = self._allowed(ends, paths[:, :2].sum(axis=2), steps.lengths)
             k = first_defect(
                 *self.program.arrays, 2 + self.hiding, paths[:whole], steps.lengths[:whole],
-                *(one[:whole, self.hiding] for one in allowed), told,
+                *(one[:whole, self.hiding] for one in allowed), defect,
             )  # fmt: skip
-            self.undecided += int(told[3])
+            self.undecided += int(defect[3])
         cut = Cut(whole, 0.0, float(RETRY_SHARE * steps.lengths[whole]), None) if whole < len(paths) else None
         if k < whole:
-            leaves = self._leaves_line(paths[k], told[0] + 0.5 * told[1])
-            cut = Cut(k, float(told[0]), float(RETRY_SHARE * told[1] * steps.lengths[k]), None, leaves)
+            leaves = self._leaves_line(paths[k], defect[0] + 0.5 * defect[1])
+            cut = Cut(k, float(defect[0]), float(RETRY_SHARE * defect[1] * steps.lengths[k]), None, leaves)
         return self._first_switch(steps, paths[: min(k + 1, whole)], cut)
 
     def _leaves_line(self, path: Array, u: float) -> bool:

@@ -1,6 +1,6 @@
 """The steps of a slide along a critical set: a motion of (e, z) whose right-hand side is the slow flow.
 
-Steps of a slide along which it surely does not end: told for many at once, so that few have to be looked at closely.
+Cheap bounds rule out, for many steps at once, that the slide ends within them.
 
 What turns negative where a slide ends is taken at five points of each step, and bounded between them by the polynomial
 through these, as `events.monotone_fractions` does.

@@ -72,7 +72,7 @@ class Slide:
 
 
 def own_time(z: Array, rate: Array, floor: float) -> float:
-    """Return the time in which z changes by its own size, |z| + floor; infinite where it stands."""
+    """Return the time in which z changes by its own size, |z| + floor; infinite where it does not change."""
     speed = float(np.max(np.abs(rate) / (np.abs(z) + floor)))
     return 1.0 / speed if speed > 0.0 else math.inf
 

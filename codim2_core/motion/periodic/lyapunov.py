@@ -148,5 +148,5 @@ def _average(rates: Array, section: Array, period: float, why: str) -> LyapunovE
         errors = np.where(forgotten, 0.0, parts.std(axis=0, ddof=1) / np.sqrt(BATCHES))
     order = np.argsort(-values, kind="stable")
     reason = say("exponents", count=len(rates), time=len(rates) * period)
-    told = f"{reason} {why}".strip()
-    return LyapunovExponents(read_only(values[order]), read_only(errors[order]), read_only(section), period, told)
+    sentence = f"{reason} {why}".strip()
+    return LyapunovExponents(read_only(values[order]), read_only(errors[order]), read_only(section), period, sentence)

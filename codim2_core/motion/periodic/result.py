@@ -159,23 +159,23 @@ def change_point(
     along: str, kind: str, row: ResponseRow, before: ResponseRow, after: ResponseRow, turns: bool = False
 ) -> ResponsePoint | None:
     """Return the point at a zero of a test function between two motions, if it is one; `turns`: the parameter does."""
-    told = {"name": along, "value": row.value}
+    numbers = {"name": along, "value": row.value}
     if kind == "fold":
         kind, sentence = (
-            ("fold", say("response folds", **told)) if turns else ("branch point", say("branches off", **told))
+            ("fold", say("response folds", **numbers)) if turns else ("branch point", say("branches off", **numbers))
         )
     elif kind == "period doubling":
-        sentence = say("doubles", **told)
+        sentence = say("doubles", **numbers)
     elif kind == "Neimark-Sacker":
         nearest = min(row.multipliers.tolist(), key=lambda one: abs(abs(one) - 1.0))
         if abs(nearest.imag) < REAL:  # a pair of real ones whose product is 1
             return None
-        sentence = say("becomes a torus", **told)
+        sentence = say("becomes a torus", **numbers)
     else:
         of = "slide" if after.phases.count("slide") != before.phases.count("slide") else "cross"
         below, above = sorted((before, after), key=lambda row: row.value)
         counts = {"below": below.phases.count(of), "above": above.phases.count(of)}
-        sentence = say("sticks change" if of == "slide" else "passages change", **told, **counts)
+        sentence = say("sticks change" if of == "slide" else "passages change", **numbers, **counts)
     return ResponsePoint(kind, row.value, row.period, sentence)
 
 
@@ -259,7 +259,7 @@ class ResponseCurve(Pictured):
         return column_rows(columns | {"phases": self.phases})
 
     def _tables_(self) -> str:
-        told = say(
+        summary = say(
             "response", name=self.along, low=float(self.values.min()), high=float(self.values.max()), count=len(self)
         )
-        return result_rows(self.special) + paragraphs([told])
+        return result_rows(self.special) + paragraphs([summary])

@@ -7,7 +7,7 @@ derivative of the end E_i of a segment by its start, and p_i its part of the per
 
     S_i dX_i + p_i E_i' dT - dX_(i+1) = -(E_i - X_(i+1)),   X_(k+1) = X_1 + a,
 
-in all but the clocks, whose start is kept, and where there is one, without dT; else with ``X_1' . dX_1 = 0`` besides,
+in all but the clocks, whose start is kept, and where there is one, without dT; else with ``X_1' . dX_1 = 0`` as well,
 because every point of a periodic motion is a start of it.
 
 Floquet multipliers that are known are set: 1 of a shift in time, 0 of what is lost. The monodromy matrix is M = P_K ...

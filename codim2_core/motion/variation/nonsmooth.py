@@ -3,7 +3,7 @@
 A change of the start moves an arrival at Sigma by dt. What is known of the motion after it, at fixed times, is moved
 with it: z by dt (W- - W+), and (x, y), if the motion leaves at once, by -dt U+. Where a critical set leaves through the
 equator, both fields agree and the motion begins with no speed: nothing is added there. Where static friction lets go,
-|e(z)| is at its reach, which tells dt: ``e.D_z e (dz + dt W-) = 0``.
+|e(z)| is at its reach, which gives dt: ``e.D_z e (dz + dt W-) = 0``.
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@ either side, and is late, and elsewhere in z, by as much: with r > t no derivati
 
 The motion in the line *passes* if it leaves along the limit direction that is next on both sides, ``rho' = R rho``,
 ``theta' = -T theta``. Then what was d is ``d^(r T/(t R))`` once rho is what it was: with r T > t R it is forgotten
-too, and (x, y) tells only when it passes, as where all directions attract. For dry friction S in a line, against a
+too, and (x, y) only says when it passes, as where all directions attract. For dry friction S in a line, against a
 force f > S, r = f + S, t = T = f and R = f - S. If it *slides* on a critical set to which what comes along the next
 directions goes as well, the angle is lost on Sigma.
 """

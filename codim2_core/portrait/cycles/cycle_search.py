@@ -10,7 +10,7 @@ The map is sampled, forward and backward in time, until its samples resolve it (
 
 The displacement of the map is smooth where orbits return. On an interval between two samples it is approximated by the
 cubic through the four samples about it (Newton's divided differences: spacing need not be even), and the fourth divided
-difference tells how far it may be from that cubic. An interval is resolved when the cubic, wherever in that band the
+difference bounds how far it may be from that cubic. An interval is resolved when the cubic, wherever in that band the
 displacement lies, has the zeros that the signs at its two ends ask for and no other: none, or one. So an extremum is
 judged by slope and curvature, and not by the heights of samples that may lie far from it.
 
@@ -43,7 +43,7 @@ PERIOD_ANNULUS_WIDTH = 0.05  # width in q of an interval of fixed points that is
 STEEP = 1e-3  # change of the displacement
 MAX_SAMPLES, MAX_ROUNDS = 900, 24  # samples in all; rounds
 MAX_UNDECIDED_SHARE = 0.25  # share of undecided samples at which looking closer is in vain
-NEAR_FOLD = 1e-6  # displacement at an extremum: a pair of cycles there is not told from none with certainty
+NEAR_FOLD = 1e-6  # displacement at an extremum: a pair of cycles there is not changes from none with certainty
 NEAR_LOOP = 1e-3  # displacement of the last orbit that returns: a loop is near
 STRIDES = 1, 3, 8, 20  # of samples that are compared
 RISE = 10.0  # times its noise, by which a sample differs from another
@@ -122,8 +122,8 @@ def zeros(q: Array, shift: Array, noise: Array) -> tuple[list[tuple[int, int]], 
     decided = np.flatnonzero(np.abs(shift) > noise)
     inward = shift[decided] < 0.0
     changes, touching, band = [], [], False
-    told = (inward[1:] != inward[:-1]) | (np.diff(decided) > 1)  # else there is nothing between the two
-    for k in np.flatnonzero(told).tolist():
+    unlike = (inward[1:] != inward[:-1]) | (np.diff(decided) > 1)  # else there is nothing between the two
+    for k in np.flatnonzero(unlike).tolist():
         i, j = decided[k : k + 2].tolist()
         if q[j - 1] - q[i + 1] > PERIOD_ANNULUS_WIDTH:
             band = True

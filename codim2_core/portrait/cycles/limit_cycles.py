@@ -97,7 +97,7 @@ class LimitCycles(Several[LimitCycle], Pictured):
     notes : tuple of str
         Named near-degeneracies: near a loop through the equator, semistable, too small, undecided.
     proved : Proof or None
-        None if no proof was requested. It is true in a condition exactly where the count stands proved.
+        None if no proof was requested. It is true in a condition exactly where the count is proved.
     """
 
     _held_ = "cycles"

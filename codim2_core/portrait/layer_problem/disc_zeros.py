@@ -22,7 +22,7 @@ from .equator_zeros import component_series, equator_zeros
 
 # Times a box may be cut, boxes open at once, and operations in all; the second where the first leaves a doubt.
 EFFORTS = ((25, 1500, 1_000_000), (32, 6_000, 3_000_000))
-TOGETHER = 1e-6  # critical sets closer than this, and not told apart by the search, count as one
+TOGETHER = 1e-6  # critical sets closer than this, and not separated by the search, count as one
 CURVE = 200  # undecided boxes that are no mere neighbours of a point,
 MIN_CURVE_EXTENT = 0.02  # if they extend this far
 REGULAR = 1e-4  # det D_e U, in units of |D_e U|^2, of a zero that is not multiple

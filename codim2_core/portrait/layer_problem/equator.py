@@ -161,7 +161,7 @@ class EquatorEquilibria(Result):
         return f"angularly non-hyperbolic: triple zero ({name}){self._weakly(i)}"
 
     def _weakly(self, i: int) -> str:
-        """Theta rises and falls in turn through its odd zeros: the next simple one tells how it passes zero i."""
+        """Theta rises and falls in turn through its odd zeros: the next simple one shows how it passes zero i."""
         if self.beyond:
             return ", weakly " + ("repelling" if self.beyond[i] > 0 else "attracting")
         rises = True

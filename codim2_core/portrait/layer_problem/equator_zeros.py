@@ -134,7 +134,7 @@ def equator_zeros(key: Hashable) -> EquatorZeros:
 
 
 def _signs_after_zeros(run: Program, theta: Array, multiplicity: NDArray[np.int64], arcs: Array) -> tuple[int, ...]:
-    """Sign of Theta after each of its zeros, where some are odd and none is simple, so that no slope tells it."""
+    """Sign of Theta after each of its zeros, where some are odd and none is simple, so that no slope gives it."""
     if not (multiplicity % 2 == 1).any() or (multiplicity == 1).any():
         return ()
     stops = np.concatenate([theta, np.asarray(arcs, np.float64).reshape(-1, 2)[:, 0]])

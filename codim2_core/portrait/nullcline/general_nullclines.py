@@ -264,7 +264,7 @@ class _Net:
 
 
 class _Tracer:
-    """Traces the branches of one kind: from the equator, from crossings, then from what the net shows besides."""
+    """Traces the branches of one kind: from the equator, from crossings, then from what else the net shows."""
 
     def __init__(
         self, key: Hashable, run: Program, size: float, kind: Kind, net: _Net, reach: float, met: list[Crossing]

@@ -68,8 +68,8 @@ class Trajectories(Pictured):
 
     def __repr__(self) -> str:
         ends = Counter(one.value for one in self.status)
-        told = "; ".join(f"{count}: {end}" for end, count in ends.most_common())
-        return f"<{len(self)} trajectories, {self.evaluations} evaluations. {told}>"
+        listed = "; ".join(f"{count}: {end}" for end, count in ends.most_common())
+        return f"<{len(self)} trajectories, {self.evaluations} evaluations. {listed}>"
 
     def _tables_(self) -> str:
         ends = Counter(one.value for one in self.status)

@@ -1,4 +1,4 @@
-"""Where orbits begin: the seeds of drawn trajectories, and limit directions.
+"""Starts of orbits: the seeds of drawn trajectories, and limit directions.
 
 Seeds are fixed places, so that a seed keeps its identity while a slider moves. They show the structure of any portrait:
 a ring outside, from which every limit direction that attracts is reached, and rings over the disc, evenly spaced. They

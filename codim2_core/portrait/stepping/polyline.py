@@ -1,4 +1,4 @@
-"""What is looked for along a step: the points of the drawn polyline, and events that end a trajectory.
+"""Points of the drawn polyline along a step, and events that end a trajectory.
 
 An event is at an attractor, at the equator, or at the edge of the view.
 

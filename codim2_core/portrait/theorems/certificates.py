@@ -192,7 +192,7 @@ def _slow_on_the_sphere() -> Certificate:
 
 
 def _solution(facts: Facts) -> tuple[Array, float] | str:
-    """Return A⁻¹f and the condition number of A, or why it is not told."""
+    """Return A⁻¹f and the condition number of A, or why it is not given."""
     if facts.location is not None and facts.location.singular:
         return say("no inverse")
     A, f = facts.own_coefficients

@@ -49,10 +49,10 @@ def plot(result: Any, ax: Any = None) -> Any:
     shown: Sketch = sketch(result)
     if isinstance(shown, LineChart):
         kinds = dict(zip(dict.fromkeys(name for name, *_ in shown.lines), COLOURS * 9, strict=False))
-        told: set[str] = set()
+        named: set[str] = set()
         for name, x, y in shown.lines:
-            axes.plot(x, y, color=colour[kinds[name]], lw=LINE_WIDTH, label="_" * (name in told) + name)
-            told.add(name)
+            axes.plot(x, y, color=colour[kinds[name]], lw=LINE_WIDTH, label="_" * (name in named) + name)
+            named.add(name)
         for kind in dict.fromkeys(kind for kind, *_ in shown.marks):
             places = [(x, y) for name, x, y in shown.marks if name == kind]
             axes.plot(*np.transpose(places), "o", mfc="none", label=kind)
@@ -60,14 +60,14 @@ def plot(result: Any, ax: Any = None) -> Any:
         if len(kinds) + len(shown.marks) > 1:
             axes.legend(frameon=False)
     elif isinstance(shown, RegionChart):
-        told = set[str]()
+        named = set[str]()
         for name, polygons in shown.areas:
             path = Path.make_compound_path(*(Path(np.asarray(p), closed=False) for p in polygons))
             axes.add_patch(PathPatch(
                 path, fc=colour[region_colour(name, colour)], ec=colour["soft"], lw=0.6, alpha=0.6,
-                label="_" * (name in told) + name,
+                label="_" * (name in named) + name,
             ))  # fmt: skip
-            told.add(name)
+            named.add(name)
         axes.set(xlim=shown.spans[0], ylim=shown.spans[1], xlabel=shown.across, ylabel=shown.up)
         axes.legend(frameon=False, fontsize="small")
     else:

@@ -56,8 +56,8 @@ def line_chart(shown: LineChart, colours: Mapping[str, str] | None = None) -> tu
     kinds = dict(zip(dict.fromkeys(name for name, _ in kept), COLOURS * 9, strict=False))
     named = list(kinds.items())[: len(COLOURS)]
     wide, tall = CHART_WIDTH - LEFT_MARGIN - 8, CHART_HEIGHT - BOTTOM - 22
-    beside = all(LETTER * len(name) <= wide / len(named) for name, _ in named)  # else each has a row of its own
-    top = 18 + (0 if beside else ROW_HEIGHT * (len(named) - 1))
+    in_one_row = all(LETTER * len(name) <= wide / len(named) for name, _ in named)  # else each has a row of its own
+    top = 18 + (0 if in_one_row else ROW_HEIGHT * (len(named) - 1))
     scale = wide / ((right - left) or 1.0), -tall / ((high - low) or 1.0)
     place = Placement(side=CHART_WIDTH, unit=1.0, decimals=1)
     floor = top + tall + 4
@@ -68,7 +68,7 @@ def line_chart(shown: LineChart, colours: Mapping[str, str] | None = None) -> tu
         path = place.path([np.round(placed, 1)])
         parts.append(f'<path d="{path}" {stroke(kinds[name], 1.6, (), place)}/>')
     for i, (name, colour) in enumerate(named):
-        x, y = (i * wide / len(named), 12) if beside else (0, 12 + ROW_HEIGHT * i)
+        x, y = (i * wide / len(named), 12) if in_one_row else (0, 12 + ROW_HEIGHT * i)
         parts.append(words(LEFT_MARGIN + 4 + x, y, escape(name), 11.0).replace("--ink", f"--{colour}"))
     foot = floor + 14
     parts += [

@@ -42,9 +42,9 @@ class Board:
         self.mine = index
         self._memory[index * SEGMENT_BYTES : index * SEGMENT_BYTES + SEGMENT_HEAD.size] = bytes(SEGMENT_HEAD.size)
 
-    def write(self, told: Mapping[str, Any], now: float) -> bool:
-        """Write what this process tells, or say that it is too long; then what it told before stays."""
-        data = zlib.compress(json.dumps(told, separators=(",", ":")).encode(), 1)
+    def write(self, known: Mapping[str, Any], now: float) -> bool:
+        """Write what this process knows, or report that it is too long; then what it wrote before stays."""
+        data = zlib.compress(json.dumps(known, separators=(",", ":")).encode(), 1)
         if len(data) > SEGMENT_BYTES - SEGMENT_HEAD.size:
             return False
         self._written += 1

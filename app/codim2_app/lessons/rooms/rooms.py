@@ -58,7 +58,7 @@ class Host:
     had_guest: bool = False
 
     def release_page(self) -> Tell | None:
-        """Hold nothing of the lecturer's page any more; return what it was told by."""
+        """Hold nothing of the lecturer's page any more; return the channel to it."""
         tell, self.tell, self.view = self.tell, None, dict
         return tell
 
@@ -192,7 +192,7 @@ class Rooms:
         look : callable
             Returns the row that the room shows, but for its number.
         tell : callable
-            Told ``{"ended": code}`` when the room ends, and ``{"view": settings}`` while the guest follows.
+            Called with ``{"ended": code}`` when the room ends, and ``{"view": settings}`` while the guest follows.
 
         Raises
         ------
@@ -220,12 +220,12 @@ class Rooms:
         return guest
 
     def view(self, code: str, now: float | None = None) -> Any:
-        """Return what the lecturer of a room shows, as far as it was told; None where it was not."""
-        told = self.board.read(time.monotonic() if now is None else now)
-        return next((one["views"][code] for _, _, one in told if code in one["views"]), None)
+        """Return what the lecturer of a room shows, as far as is known; None where it is not."""
+        boards = self.board.read(time.monotonic() if now is None else now)
+        return next((one["views"][code] for _, _, one in boards if code in one["views"]), None)
 
     def follow(self, guest: Guest, on: bool) -> None:
-        """Have somebody told of what his lecturer shows, now and whenever it changes, or no longer."""
+        """Subscribe a student to the lecturer's view, or unsubscribe."""
         guest.follows, guest.shown = on, None
         self._show(guest, time.monotonic())
 
@@ -300,8 +300,8 @@ class Rooms:
     def _states(self, now: float) -> dict[str, str]:
         """Return "open" or "closed" for each room that any process knows."""
         found: dict[str, str] = {}
-        for _, _, told in self.board.read(now):
-            for code, (_, is_open, closed, _) in told["hosts"].items():
+        for _, _, board in self.board.read(now):
+            for code, (_, is_open, closed, _) in board["hosts"].items():
                 if closed:
                     found[code] = "closed"
                 elif is_open:
@@ -310,11 +310,11 @@ class Rooms:
 
     def _openings_of(self, code: str, now: float) -> list[tuple[float, str]]:
         """Return when a room was opened, and the mark of its key, by each process that knows it."""
-        told = [told["hosts"][code] for _, _, told in self.board.read(now) if code in told["hosts"]]
-        return [(opened, mark) for opened, _, _, mark in told]
+        hosts = [board["hosts"][code] for _, _, board in self.board.read(now) if code in board["hosts"]]
+        return [(opened, mark) for opened, _, _, mark in hosts]
 
     def _rows(self, code: str, now: float) -> list[GuestRow]:
-        return [row for _, _, told in self.board.read(now) for row in told["rows"].get(code, ())]
+        return [row for _, _, board in self.board.read(now) for row in board["rows"].get(code, ())]
 
 
 def _bytes_of(key: str) -> bytes:

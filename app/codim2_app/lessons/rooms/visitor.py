@@ -50,7 +50,7 @@ class Visitor:
 
     def __init__(self, frames: SharedView, address: str = "") -> None:
         self.frames, self.address = frames, address
-        self._untold: dict[str, dict[str, Any]] = {}  # of each kind the newest message, which waits for its turn
+        self._waiting: dict[str, dict[str, Any]] = {}  # of each kind the newest message, which waits for its turn
         self._opened: tuple[str, Callable[[dict[str, Any]], None]] | None = None
         self._guest: Guest | None = None
 
@@ -75,10 +75,10 @@ class Visitor:
 
         def tell(message: dict[str, Any]) -> None:
             (kind, *_) = message
-            waits = kind in self._untold
-            self._untold[kind] = message
+            waits = kind in self._waiting
+            self._waiting[kind] = message
             if not waits:
-                later(lambda: reply(self._untold.pop(kind)))
+                later(lambda: reply(self._waiting.pop(kind)))
 
         try:
             if isinstance(key := asked.get("open"), str):

@@ -10,7 +10,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from codim2_core.bifurcations.atlases.atlas import Atlas, curves_over, with_bifurcations_of_cycles, with_regions
+from codim2_core.bifurcations.atlases.atlas import curves_over, with_bifurcations_of_cycles, with_regions
+from codim2_core.bifurcations.atlases.result import Atlas
 from codim2_core.bifurcations.diagrams.classes import ClassInterval, class_line
 from codim2_core.bifurcations.plane.curve import border_reach, coefficients_of
 from codim2_core.bifurcations.plane.plane_curves import may_turn

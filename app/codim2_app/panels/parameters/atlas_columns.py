@@ -64,14 +64,14 @@ def atlas_columns(found: Atlas, symbols: tuple[str, str]) -> tuple[dict[str, Any
 def _note(found: Atlas, symbols: dict[str, str]) -> str:
     """Tell what an atlas has missed, or may have."""
     looked = found.looked
-    told = [say("degenerate line", name=symbols[name], value=value) for name, value in found.degenerate]
+    sentences = [say("degenerate line", name=symbols[name], value=value) for name, value in found.degenerate]
     given_up = [kind for kind in found.unfinished if kind not in KINDS]
     seen = [kind for kind in found.unfinished if kind in KINDS]
-    told += [say("curves given up", kinds=", ".join(given_up))] if given_up else []
-    told += [say("connections not followed", kinds=", ".join(seen))] if seen else []
-    told += [say("region unlike", few=len(looked.unlike), all=looked.places)] if looked.unlike else []
-    told += [say("regions unproved", few=looked.unproved, all=looked.places)] if looked.unproved else []
-    return " ".join([*told, say("map by curves") if looked.places else say("regions to come")])
+    sentences += [say("curves given up", kinds=", ".join(given_up))] if given_up else []
+    sentences += [say("connections not followed", kinds=", ".join(seen))] if seen else []
+    sentences += [say("region unlike", few=len(looked.unlike), all=looked.places)] if looked.unlike else []
+    sentences += [say("regions unproved", few=looked.unproved, all=looked.places)] if looked.unproved else []
+    return " ".join([*sentences, say("map by curves") if looked.places else say("regions to come")])
 
 
 def _curve_columns(

@@ -53,10 +53,10 @@ class Axis:
 def available(draft: FrameContext) -> dict[str, Axis]:
     """Return, by name, the axes that belong to the present system and Psi; the browser hears when they change."""
     found = axes_there(draft.scene, draft.values, draft.locked)
-    told = tuple((axis.name, axis.symbol) for axis in found.values())
-    if draft.now.get("axes") != told:
-        draft.now["axes"] = told
-        draft.header["axes"] = [list(row) for row in told]
+    names = tuple((axis.name, axis.symbol) for axis in found.values())
+    if draft.now.get("axes") != names:
+        draft.now["axes"] = names
+        draft.header["axes"] = [list(row) for row in names]
     return found
 
 

@@ -109,10 +109,10 @@ def _critical_points(scene: Scene) -> Any:
     return _marks(c, ("kind", "trace", "determinant", "discriminant"), "critical", 12)
 
 
-def _marks(columns: Any, told: tuple[str, ...], label: str, size: int) -> Any:
+def _marks(columns: Any, shown: tuple[str, ...], label: str, size: int) -> Any:
     """Return marks of their own shape, colour and fill, with their tooltips, for each backend that is loaded."""
     colours, fills = _mark_colours(columns)
-    names = ("label", *told)
+    names = ("label", *shown)
     values = (columns["x"], columns["y"], *(columns[name] for name in names), columns["shape"], colours, fills)
     points: Any = hv.Points(values, kdims=AXIS_LABELS, vdims=[*names, "marker", "colour", "fill"], label=label)
     if "bokeh" in hv.Store.renderers:

@@ -32,7 +32,7 @@ class FrameContext:
     locked: tuple[str, ...]  # controls that the system does not have
     # layers of the scene that are to be computed in the background, as they have been requested in vain
     missing: list[str] = field(default_factory=list)
-    # layers of the scene that are not drawn of this system, and why; told below the picture
+    # layers of the scene that are not drawn of this system, and why; shown below the picture
     left_out: list[OmittedLayer] = field(default_factory=list)
 
     @property

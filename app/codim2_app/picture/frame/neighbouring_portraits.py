@@ -41,10 +41,10 @@ def neighbouring_portraits(scene: Scene, values: Mapping[str, Any], control: str
     had = _controls(scene, values)
     found: NeighbouringPortraits | None = None
     for name in [moved] if moved in had else had:
-        beside = portraits_beside(scene.system, scene.psi, scene.z, name)
-        found = found or beside
-        if beside is not None and beside.below != beside.above:
-            found = beside
+        pair = portraits_beside(scene.system, scene.psi, scene.z, name)
+        found = found or pair
+        if pair is not None and pair.below != pair.above:
+            found = pair
             break
     if found is None or {found.below, found.above} == {scene["name"].name}:
         return None

@@ -70,9 +70,9 @@ def at_most(seconds: float, compiling: CompileClock | None = None) -> Iterator[N
     def report_unraisable(found: Any) -> None:
         # The interpreter drops what is raised in a callback of its garbage collector. That alarm is not a fault.
         if found.exc_type is not TimeoutError:
-            told(found)
+            hook(found)
 
-    told, sys.unraisablehook = sys.unraisablehook, report_unraisable
+    hook, sys.unraisablehook = sys.unraisablehook, report_unraisable
     before = signal.signal(signal.SIGPROF, stop)  # processor time: a busy machine is not the formula's fault
     try:
         try:
@@ -84,4 +84,4 @@ def at_most(seconds: float, compiling: CompileClock | None = None) -> Iterator[N
     finally:  # also if the alarm came on the line before
         signal.setitimer(signal.ITIMER_PROF, 0.0)
         signal.signal(signal.SIGPROF, before)
-        sys.unraisablehook = told
+        sys.unraisablehook = hook

@@ -95,8 +95,8 @@ def motion_from_start(
         return {"orbit": {**orbit, "ball": _rolling(ball, limit, parameters)}}
     run = simulate(system, psi, start, (0.0, t_end), eps=eps, rtol=RTOL)
     together = agreement(system, psi, run, limit)
-    told = {"agreement": together.sentence, "same": together.same, "ball": _rolling(ball, run, parameters)}
-    return {"orbit": orbit, "orbit_motion": {"index": TYPED, "eps": eps, **curves(run), **told}}
+    comparison = {"agreement": together.sentence, "same": together.same, "ball": _rolling(ball, run, parameters)}
+    return {"orbit": orbit, "orbit_motion": {"index": TYPED, "eps": eps, **curves(run), **comparison}}
 
 
 def curves(run: Simulation) -> dict[str, Any]:

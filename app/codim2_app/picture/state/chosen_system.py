@@ -351,8 +351,8 @@ def rest_sentence(choice: str, parameters: Mapping[str, float]) -> str:
     found = made.decide((0.0,) * len(made.names))
     names = (catalogue[key].title.rpartition(": ")[2] for key in keys)
     keys_by_kind = {"stick": "at rest, stick", "slip": "at rest, slip"}
-    told = (say(keys_by_kind[kind], contact=name) for kind, name in zip(found.kinds, names, strict=True))
-    return say("at rest", contacts=", ".join(told))
+    sentences = (say(keys_by_kind[kind], contact=name) for kind, name in zip(found.kinds, names, strict=True))
+    return say("at rest", contacts=", ".join(sentences))
 
 
 def slow_symbols(choice: str, system: System_) -> list[str]:

@@ -33,7 +33,7 @@ def compatible_changes(
             try:
                 attempt({**had, name: good[name]})
                 had[name] = good[name]
-            except Exception as error:  # told next to the control that it is of
+            except Exception as error:  # shown next to its control
                 failed[name] = error
         if len(failed) == len(left):
             break

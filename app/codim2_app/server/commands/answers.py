@@ -132,8 +132,8 @@ def prove(chosen: argparse.Namespace) -> int:
         return 2
     print(f"Limit cycles: {len(found)}. {proved.reason}")
     for i, (cycle, alone) in enumerate(zip(found, proved.cycles, strict=True)):
-        told = f"{cycle.kind}, period {six(cycle.period)}, multiplier {six(cycle.multiplier)}"
-        print(f"  cycle {i + 1}: {told}{', proved' if alone else ''}")
+        line = f"{cycle.kind}, period {six(cycle.period)}, multiplier {six(cycle.multiplier)}"
+        print(f"  cycle {i + 1}: {line}{', proved' if alone else ''}")
     directions, sets = proved.limit_directions, proved.critical_sets
     print("Limit directions: " + ("not proved" if directions is None else f"{len(directions)}, proved"))
     print("Critical sets: " + ("not proved" if sets is None else f"{', '.join(sets) or 'none'}; proved"))

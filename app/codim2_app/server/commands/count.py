@@ -21,10 +21,10 @@ from .numbers import natural_count
 def add_census(commands: Any) -> None:
     """Add `codim2 census`."""
     command = commands.add_parser("census", help="count the portraits of systems drawn at random")
-    told = (
+    words = (
         "normal (default): e-linear ones, of standard normal a, b, d, f₁, f₂; quadratic: in e, of twelve such numbers"
     )
-    command.add_argument("--draw", choices=tuple(DRAWS), default="normal", help=told)
+    command.add_argument("--draw", choices=tuple(DRAWS), default="normal", help=words)
     command.add_argument("--count", type=natural_count, default=1_000_000, help="default a million")
     command.add_argument("--seed", type=int, default=0)
     command.add_argument("--outcomes", action="store_true", help="name what becomes of arriving orbits too, under Ψ")

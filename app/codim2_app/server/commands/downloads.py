@@ -34,8 +34,8 @@ def add_view(command: Any) -> None:
 
 def _add_output(command: Any, endings: tuple[str, ...], words: str) -> None:
     """Add where the file is written, and its format where no name tells it."""
-    told = f"{words}; - is a pipe, with --format"
-    command.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=told)
+    meaning = f"{words}; - is a pipe, with --format"
+    command.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=meaning)
     command.add_argument("--format", choices=[one[1:] for one in endings], default=endings[0][1:], help="of a pipe")
     command.set_defaults(endings=endings)
 

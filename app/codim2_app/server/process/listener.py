@@ -25,7 +25,7 @@ RESERVED, MAX_PENDING = 64, 16
 #: Connections of one address for each place: a browser opens six for a page, and one is its line.
 MAX_PER_PLACE = 8
 #: Seconds for which nobody is accepted when the system has no descriptor left, and between two lines about it.
-PAUSE_SECONDS, TOLD_SECONDS = 1.0, 60.0
+PAUSE_SECONDS, REPORT_SECONDS = 1.0, 60.0
 #: Seconds for which a process leaves the next connection to one that has fewer pages, and how often in a row.
 SHARING_SECONDS, MAX_LEFT = 0.005, 20
 #: Seconds for which one who is let go may say what he wants.
@@ -82,7 +82,7 @@ class Listener(socket.socket):
         self._left = 0  # how often in a row the next connection was left to another process
         self._has_accepted = False  # in this turn of the loop
         self._pending: dict[socket.socket, None] = {}  # in the order in which they came
-        self._told = -TOLD_SECONDS
+        self._last_report = -REPORT_SECONDS
 
     def accept(self) -> tuple[socket.socket, Any]:
         """Return the next connection that may be let in; BlockingIOError if there is none now."""
@@ -121,8 +121,8 @@ class Listener(socket.socket):
         loop.call_later(seconds, lambda: self.fileno() >= 0 and loop.update_handler(self, IOLoop.READ))
 
     def _tell(self, words: str, *of: Any) -> None:
-        if (now := time.monotonic()) - self._told >= TOLD_SECONDS:
-            self._told = now
+        if (now := time.monotonic()) - self._last_report >= REPORT_SECONDS:
+            self._last_report = now
             _log.warning(words, *of)
 
     def _keep_waiting(self, found: socket.socket) -> None:

@@ -28,7 +28,7 @@ from ...lessons.markdown import formula
 from . import gallery, lesson_pages, paper_figures, reference, running, validation
 
 TEXT_FOLDER = Path(__file__).parent / "text"
-#: What pages link to besides pages and pictures, by its path.
+#: Files that pages link to, other than pages and pictures, by path.
 FILES = {path.relative_to(TEXT_FOLDER).as_posix(): path for path in TEXT_FOLDER.glob("*/*") if path.is_file()}
 EXPLORER = "../"
 SEARCH = """<form role="search" action="./">
@@ -152,11 +152,11 @@ def _navigation() -> str:
         caption = re.search(r":caption: (.*)", tree)
         items = []
         for line in (line for line in tree.splitlines() if line and not line.startswith(":")):
-            told, name = re.fullmatch(r"(?:(.*) <)?([\w*-]+)>?", line).groups()  # type: ignore[union-attr]
+            title, name = re.fullmatch(r"(?:(.*) <)?([\w*-]+)>?", line).groups()  # type: ignore[union-attr]
             names = [one for one in sources() if one.startswith(name[:-1])] if name.endswith("*") else [name]
             for one in (one for one in names if one in sources() and one not in listed):
                 listed.add(one)
-                items.append(f'<li><a href="{one}.html">{escape(told or title_of(one))}</a></li>')
+                items.append(f'<li><a href="{one}.html">{escape(title or title_of(one))}</a></li>')
         parts.append(f"<h2>{caption[1] if caption else ''}</h2><ul>{''.join(items)}</ul>")
     return "".join(parts)
 

@@ -33,5 +33,5 @@ def _section(motion: ReferenceMotion) -> str:
         f"| {known.formula} |".replace("|w|", "\\|w\\|").replace("|(x, y)|", "\\|(x, y)\\|")
         for known, one in zip(motion.values, motion.compare(), strict=True)
     ]
-    told = f"## {motion.title}\n\n{motion.sentence} `{motion.key}`, after {motion.source}.\n\n"
-    return told + TABLE + "\n".join(rows) + "\n"
+    heading = f"## {motion.title}\n\n{motion.sentence} `{motion.key}`, after {motion.source}.\n\n"
+    return heading + TABLE + "\n".join(rows) + "\n"

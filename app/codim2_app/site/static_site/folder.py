@@ -98,15 +98,15 @@ def engine_files(pyodide: Path, kernels: Path) -> dict[str, bytes]:
         **{f"pyodide/{name}": data for name, data in copied_files(pyodide)},
         "pyodide/pyodide-lock.json": json.dumps(LOCK).encode(),
     }
-    told = {"edition": edition(), "sizes": {name: len(data) for name, data in files.items()}}
-    return {**files, "folder.json": json.dumps(told).encode()}
+    contents = {"edition": edition(), "sizes": {name: len(data) for name, data in files.items()}}
+    return {**files, "folder.json": json.dumps(contents).encode()}
 
 
 def offline_script(files: Mapping[str, bytes]) -> bytes:
     """Return the script that keeps these files in the browser; it is another one if one of them is."""
     digests = (name.encode() + hashlib.sha256(data).digest() for name, data in files.items())
-    told = {"version": hashlib.sha256(b"".join(digests)).hexdigest()[:16], "files": ["./", *files]}
-    return f"self.folder = {json.dumps(told)}\n".encode() + (SCRIPT_FOLDER / "offline.js").read_bytes()
+    contents = {"version": hashlib.sha256(b"".join(digests)).hexdigest()[:16], "files": ["./", *files]}
+    return f"self.folder = {json.dumps(contents)}\n".encode() + (SCRIPT_FOLDER / "offline.js").read_bytes()
 
 
 def page() -> str:

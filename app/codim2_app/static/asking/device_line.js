@@ -193,8 +193,8 @@ export class DeviceLine {
     this.server.hear((message) => { if (!message.frame || this.end === this.server) heard(message) })
   }
 
-  lost(told) {
-    this.loses = told
-    this.server.lost((code) => { this.gone = true; if (this.end === this.server || this.room) told(code) })
+  lost(report) {
+    this.loses = report
+    this.server.lost((code) => { this.gone = true; if (this.end === this.server || this.room) report(code) })
   }
 }

@@ -2,7 +2,7 @@
 
 /**
  * @typedef {{config: any, offered: any, first: ArrayBuffer | null, send: (message: any) => void,
- *   hear: (heard: (message: any) => void) => void, lost: (told: (code?: number) => void) => void, ready?: Promise<void>, heard?: (header: any, values: any) => void}} Line
+ *   hear: (heard: (message: any) => void) => void, lost: (report: (code?: number) => void) => void, ready?: Promise<void>, heard?: (header: any, values: any) => void}} Line
  *   what an explorer asks; until it is `ready`, if it is not so from the beginning, nothing is asked; `heard`, if it is
  *   there, hears of each frame before it is shown
  */
@@ -13,7 +13,7 @@
  * @returns {Promise<Line>} rejects with the code of a line that was closed before
  */
 export function openLine(address, Socket = WebSocket) {
-  const socket = new Socket(address), hearing = /** @type {((message: any) => void)[]} */ ([]), told = /** @type {((code?: number) => void)[]} */ ([])
+  const socket = new Socket(address), hearing = /** @type {((message: any) => void)[]} */ ([]), report = /** @type {((code?: number) => void)[]} */ ([])
   socket.binaryType = "arraybuffer"
   const said = (message) => { for (const heard of hearing) heard(message) }
   let beginning = /** @type {any} */ (null), of = /** @type {any} */ (null) // the message whose file comes next
@@ -27,12 +27,12 @@ export function openLine(address, Socket = WebSocket) {
       } else if (of) { said({...of, file: data}); of = null }
       else if (beginning) {
         begin({
-          ...beginning, first: data, hear: (heard) => hearing.push(heard), lost: (tell) => told.push(tell),
+          ...beginning, first: data, hear: (heard) => hearing.push(heard), lost: (tell) => report.push(tell),
           send: (message) => { if (socket.readyState === 1) socket.send(JSON.stringify(message)) },
         })
         beginning = null
       } else said({frame: data})
     })
-    socket.addEventListener("close", ({code}) => { refuse(code); for (const tell of told) tell(code) })
+    socket.addEventListener("close", ({code}) => { refuse(code); for (const tell of report) tell(code) })
   })
 }

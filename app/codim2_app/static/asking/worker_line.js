@@ -35,9 +35,9 @@ export function callWorker({href}, search, drawn) {
  */
 export function openWorkerLine(worker, saved, tell) {
   const hearing = /** @type {((message: any) => void)[]} */ ([]), losing = /** @type {(() => void)[]} */ ([])
-  const line = {hear: (heard) => hearing.push(heard), lost: (told) => losing.push(told), send: (message) => worker.postMessage(message)}
+  const line = {hear: (heard) => hearing.push(heard), lost: (report) => losing.push(report), send: (message) => worker.postMessage(message)}
   return new Promise((begin, refuse) => {
-    const lose = () => { tell(""); refuse(new Error("the worker has ended")); for (const told of losing) told() }
+    const lose = () => { tell(""); refuse(new Error("the worker has ended")); for (const report of losing) report() }
     const ready = /** @type {Promise<void>} */ (new Promise((answers) => {
       worker.addEventListener("message", ({data}) => {
         if (data.loading) tell(loadingWords(data.loading.bytes, data.loading.all))

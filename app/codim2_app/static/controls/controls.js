@@ -124,9 +124,9 @@ export function sayAt(box, sentence) {
   const error = box.querySelector(".error")
   box.classList.toggle("bad", Boolean(sentence))
   if (!error) return
-  const [told, rest] = foldAllowed(sentence ?? "")
+  const [message, rest] = foldAllowed(sentence ?? "")
   if (error.dataset.said !== sentence) {
-    error.textContent = told
+    error.textContent = message
     if (rest) error.insertAdjacentHTML("beforeend", ` <details><summary>more</summary>${escape(rest)}</details>`)
     error.dataset.said = sentence ?? ""
   }

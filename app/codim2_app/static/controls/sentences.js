@@ -11,17 +11,17 @@ export class Sentences {
     this.bar = bar
     this.controls = controls
     this.asked = asked
-    this.told = /** @type {Record<string, string>} */ ({})
+    this.shown = /** @type {Record<string, string>} */ ({})
     this.noticed = false
   }
 
   /** @param {Record<string, string>} errors by control; "" of none */
-  say(errors = this.told) {
+  say(errors = this.shown) {
     for (const [name, control] of Object.entries(this.controls)) {
       if (name in errors) control.say(errors[name])
       else if (control.box.classList.contains("bad") && !(name in this.asked())) control.say(null)
     }
-    this.told = errors
+    this.shown = errors
     this.banner(Object.entries(errors).filter(([name]) => !this.seen(name)).map(([, sentence]) => sentence).join(" "))
   }
 

@@ -23,12 +23,12 @@ export class SystemChooser {
     this.select?.addEventListener("change", () => this.choose(this.select.value))
     if (typeof ResizeObserver !== "undefined") new ResizeObserver(() => fit(this.find(".equations"))).observe(this.box)
     this.sliders = {}
-    this.told = null
+    this.shown = null
     this.kept = {}
     try { this.kept = config.page ? JSON.parse(sessionStorage.getItem("codim2-typed")) ?? {} : {} } catch { /* storage may be forbidden */ }
   }
 
-  get choice() { return this.told?.choice ?? this.values.system }
+  get choice() { return this.shown?.choice ?? this.values.system }
 
   // What was typed is there again when its system, or a Psi of one's own, is chosen again.
   keep() {
@@ -50,15 +50,15 @@ export class SystemChooser {
   // What the server says of the system: its equations, parameters and slow variables.
   apply({header}) {
     if (!header.system) return
-    const same = this.told?.choice === header.system.choice
-    this.told = header.system
+    const same = this.shown?.choice === header.system.choice
+    this.shown = header.system
     if (this.select) this.select.value = this.choice
-    this.root.classList.toggle("not-normal", !this.told.coefficients)
-    this.config.slowSymbols = this.told.slow.map((one) => one.symbol)
+    this.root.classList.toggle("not-normal", !this.shown.coefficients)
+    this.config.slowSymbols = this.shown.slow.map((one) => one.symbol)
     for (let i = 0; i < 4; i++) this.config.symbols[slowName(i)] = this.config.slowSymbols[i] ?? (i ? `z${"₁₂₃₄"[i]}` : "z")
-    this.find(".equations").innerHTML = this.told.equations
+    this.find(".equations").innerHTML = this.shown.equations
     fit(this.find(".equations"))
-    this.find(".system-note").textContent = [this.told.label && capital(`${this.told.label}.`), this.told.sentence].filter(Boolean).join(" ")
+    this.find(".system-note").textContent = [this.shown.label && capital(`${this.shown.label}.`), this.shown.sentence].filter(Boolean).join(" ")
     if (!same) this.makeBoxes()
     this.makeParameters()
     this.makeSlow()
@@ -104,7 +104,7 @@ export class SystemChooser {
   }
 
   makeParameters() {
-    const wanted = this.told.parameters
+    const wanted = this.shown.parameters
     const names = wanted.map((p) => `${p.name} ${p.range}`).join()
     this.defaults = Object.fromEntries(wanted.map((p) => [p.name, p.value]))
     if (names !== this.names) {
@@ -139,8 +139,8 @@ export class SystemChooser {
 
   makeSlow() {
     // z itself has a control among the coefficients
-    const slow = this.told.slow.slice(0, 4).map((one, i) => ({...one, name: slowName(i)})).slice(this.told.coefficients ? 1 : 0)
-    if (this.told.coefficients) { this.place("z", this.normal); this.normal.set(this.values.z) }
+    const slow = this.shown.slow.slice(0, 4).map((one, i) => ({...one, name: slowName(i)})).slice(this.shown.coefficients ? 1 : 0)
+    if (this.shown.coefficients) { this.place("z", this.normal); this.normal.set(this.values.z) }
     const key = JSON.stringify(slow)
     if (key === this.slow) return
     this.slow = key

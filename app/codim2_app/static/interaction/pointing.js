@@ -230,8 +230,8 @@ export class Pointing {
     const words = (one) => { const {title, rows, notes} = factsOf(one, header, this.slowSymbols()); return [title, ...rows.map(([name, value]) => `${name} = ${value}`), ...notes].join("; ") }
     const focus = this.list.getRootNode().activeElement?.dataset?.object
     const markup = named.map((one) => `<button type="button" data-object="${one.name}" aria-pressed="${one.name === this.name}" aria-label="${escape(words(one))}"></button>`).join("")
-    if (this.told === markup) return
-    this.told = markup
+    if (this.written === markup) return
+    this.written = markup
     this.list.innerHTML = markup
     if (focus) this.list.querySelector(`[data-object="${focus}"]`)?.focus()
   }

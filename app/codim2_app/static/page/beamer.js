@@ -18,19 +18,19 @@ export const busy = (root, event) => Boolean(/** @type {any} */ (event.composedP
 export class Beamer {
   /**
    * @param {any} root the explorer @param {{enlarge: (times: number) => void}} picture
-   * @param {number} on what a link asks for: 1 is the picture, 2 a panel next to it @param {(on: number) => void} told is
+   * @param {number} on what a link asks for: 1 is the picture, 2 a panel next to it @param {(on: number) => void} changed is
    *   called when it begins, changes or ends
    */
-  constructor(root, picture, on, told) {
+  constructor(root, picture, on, changed) {
     this.root = root
     this.picture = picture
-    this.told = told
+    this.changed = changed
     this.on = 0
     this.kept = on === 2 ? 2 : 1 // as which it begins
     this.button = root.querySelector(".beam")
-    this.beside = root.querySelector(".panel-too")
+    this.panelButton = root.querySelector(".panel-too")
     this.button.addEventListener("click", () => this.toggle())
-    this.beside.addEventListener("click", () => this.panel())
+    this.panelButton.addEventListener("click", () => this.panel())
     document.addEventListener("keydown", (event) => {
       if (busy(root, event)) return
       if (event.key === "b") { event.preventDefault(); this.toggle() }
@@ -49,7 +49,7 @@ export class Beamer {
     this.root.classList.toggle("beamer", on > 0)
     this.root.classList.toggle("paneled", on === 2)
     this.button.setAttribute("aria-pressed", on > 0)
-    this.beside.setAttribute("aria-pressed", on === 2)
+    this.panelButton.setAttribute("aria-pressed", on === 2)
     this.size()
     if (on) this.wake()
   }
@@ -64,12 +64,12 @@ export class Beamer {
   panel() {
     this.kept = 3 - this.on
     this.show(this.kept)
-    this.told(this.kept)
+    this.changed(this.kept)
   }
 
   toggle(on = !this.on) {
     this.show(on ? this.kept : 0)
-    this.told(this.on)
+    this.changed(this.on)
     // where a browser refuses, as in a frame, the picture fills the page
     if (on) document.documentElement.requestFullscreen?.().then(() => { this.full = true }, () => {})
     else if (document.fullscreenElement) document.exitFullscreen()

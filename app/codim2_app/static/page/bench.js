@@ -39,7 +39,7 @@ export class Bench {
     this.runs = 0
     this.of = "" // of which values the motion is that runs
     this.next = 0
-    this.told = ""
+    this.sentence = ""
     this.above = 0 // px that the words take
     this.before = "" // the verdict of the frame before
     this.slider.addEventListener("input", () => {
@@ -96,12 +96,12 @@ export class Bench {
     svg.setAttribute("viewBox", `0 0 ${w} ${h}`)
     const slips = moment !== null && Math.hypot(...moment.slip) > CREEPS, stays = headline.verdict !== "slips" && headline.verdict !== "unheld"
     headline.moves(slips)
-    const told = slips ? stays ? SAYS.still : SAYS.slipping : moment?.pace < STILL && !moment.done ? stays ? SAYS.atRest : SAYS.instant : headline.state
-    say(this.words, moment?.pace < STILL && !moment.done ? `${told} · ${SAYS.slowed} ${Math.round(1 / moment.pace)}×` : told)
-    if (this.told !== told) { this.told = told; this.above = this.words.offsetHeight }
+    const sentence = slips ? stays ? SAYS.still : SAYS.slipping : moment?.pace < STILL && !moment.done ? stays ? SAYS.atRest : SAYS.instant : headline.state
+    say(this.words, moment?.pace < STILL && !moment.done ? `${sentence} · ${SAYS.slowed} ${Math.round(1 / moment.pace)}×` : sentence)
+    if (this.sentence !== sentence) { this.sentence = sentence; this.above = this.words.offsetHeight }
     setMarkup(svg, puckMarkup(w, h, {...this.shown, above: this.above}, values))
     this.words.title = isFriction(values) ? "" : SAYS.activeTip
-    svg.setAttribute("aria-label", `${SAYS.puckAbove}: ${told}`)
+    svg.setAttribute("aria-label", `${SAYS.puckAbove}: ${sentence}`)
   }
 
   /**

@@ -21,7 +21,7 @@ export class Challenge {
     this.bar = root.querySelector(".goal-bar")
     this.values = values
     this.names = names
-    this.told = /** @type {any} */ ({})
+    this.answer = /** @type {any} */ ({})
     try { this.kept = JSON.parse(sessionStorage.getItem(STORE) ?? "{}") } catch { this.kept = {} }
     this.bar.addEventListener("click", (/** @type {any} */ event) => {
       const act = event.target.closest("button")?.dataset.act
@@ -34,15 +34,15 @@ export class Challenge {
   apply(header) {
     const {values, names} = this, {goal} = values
     this.bar.hidden = !goal
-    if (header.challenge) this.told = header.challenge
-    const {told} = this
-    if (!goal || told.goal !== goal) return
+    if (header.challenge) this.answer = header.challenge
+    const {answer} = this
+    if (!goal || answer.goal !== goal) return
     if (this.kept.goal !== goal) this.keep({goal, start: structuredClone(Object.fromEntries([...names, "parameters"].map((name) => [name, values[name]])))})
     const count = movedBetween(this.kept.start, values, names)
-    if (told.met && header.challenge && count && !(this.kept.best <= count)) this.keep({...this.kept, best: count})
-    const best = this.kept.best < count && told.met ? ` ${SAYS.fewest} ${this.kept.best}.` : ""
-    const said = told.error ?? (told.met ? `<b>${count ? `${SAYS.met} ${sliders(count)} ✓` : SAYS.metAlready}</b>${best}` : `${SAYS.notMet} ${escape(told.now).replaceAll(": ", " is ")}.`)
-    setMarkup(this.bar, `<span>${SAYS.challenge} <b>${escape(told.words ?? goal)}</b>. ${said}</span><button type="button" data-act="again">${SAYS.startAgain}</button><button type="button" data-act="end" aria-label="${SAYS.endChallenge}" title="${SAYS.endChallenge}">×</button>`)
+    if (answer.met && header.challenge && count && !(this.kept.best <= count)) this.keep({...this.kept, best: count})
+    const best = this.kept.best < count && answer.met ? ` ${SAYS.fewest} ${this.kept.best}.` : ""
+    const said = answer.error ?? (answer.met ? `<b>${count ? `${SAYS.met} ${sliders(count)} ✓` : SAYS.metAlready}</b>${best}` : `${SAYS.notMet} ${escape(answer.now).replaceAll(": ", " is ")}.`)
+    setMarkup(this.bar, `<span>${SAYS.challenge} <b>${escape(answer.words ?? goal)}</b>. ${said}</span><button type="button" data-act="again">${SAYS.startAgain}</button><button type="button" data-act="end" aria-label="${SAYS.endChallenge}" title="${SAYS.endChallenge}">×</button>`)
   }
 
   keep(kept) { this.kept = kept; try { sessionStorage.setItem(STORE, JSON.stringify(kept)) } catch { /* storage may be forbidden */ } }

@@ -47,11 +47,11 @@ export class Headline {
 
   write() {
     const {push, held} = pushOf(this.values), {verdict} = this
-    const told = verdict && (push < 1e-12 || held > 0 && Number.isFinite(held))
-    this.box.hidden = !told
+    const shown = verdict && (push < 1e-12 || held > 0 && Number.isFinite(held))
+    this.box.hidden = !shown
     this.root.classList.toggle("headless", !this.own())
     const how = {more: push > held, sure: ["sticks", "circles"].includes(verdict) || push > held, friction: isFriction(this.values)}
-    setMarkup(this.box, told ? pushSentence(push < 1e-12 ? "" : digits(push, 3), digits(held, 3), this.words, how) : "")
+    setMarkup(this.box, shown ? pushSentence(push < 1e-12 ? "" : digits(push, 3), digits(held, 3), this.words, how) : "")
   }
 
   /** What becomes of the push, by the kinds of the critical sets of the newest frame; "" where nothing is decided. */

@@ -4,7 +4,7 @@ import {setMarkup, say} from "../dom.js"
 import {escape, formula, slowWords} from "../words.js"
 
 /** What lies on both sides of a degenerate setting, as markup. @param {any} sides */
-export const besides = (sides) => sides?.below && sides.above
+export const neighbours = (sides) => sides?.below && sides.above
   ? `<p class="note sides">A little less ${escape(sides.symbol)}: <b>${escape(sides.below)}</b>. A little more: <b>${escape(sides.above)}</b>.</p>` : ""
 
 /** A portrait's sentence without its name. @param {string} sentence */
@@ -30,7 +30,7 @@ export class Inspector {
     say(box, bare(sentence))
     box.classList.toggle("longer", box.scrollHeight > box.clientHeight + 2) // than its place: it fades, and is rolled
     setMarkup(this.find(".degeneracies"), degeneracies
-      .map(([title, words]) => `<p class="warning"><b>${escape(title)}</b>. ${formula(words)}</p>`).join("") + besides(sides))
+      .map(([title, words]) => `<p class="warning"><b>${escape(title)}</b>. ${formula(words)}</p>`).join("") + neighbours(sides))
   }
 
   // One line that is always in view.

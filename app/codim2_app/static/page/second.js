@@ -46,7 +46,7 @@ export class Second {
     this.frame = /** @type {HTMLIFrameElement | null} */ (null)
     this.names = ""
     this.ready = false
-    this.told = /** @type {Record<string, any>} */ ({}) // what the second has been told
+    this.sent = /** @type {Record<string, any>} */ ({}) // what the second has been sent
     this.contacts = /** @type {Record<string, string>} */ ({}) // of a mechanism with several: the system at each, and its title
     this.wide = matchMedia(WIDE)
     this.wide.addEventListener("change", () => this.sync())
@@ -113,8 +113,8 @@ export class Second {
       this.make(all, config.setting.filter((name) => name in own && !["texts", "parameters", "system"].includes(name)).slice(0, SHOWN_BELOW))
     }
     this.words(own)
-    const changed = others(all, this.told)
-    if (this.ready && Object.keys(changed).length) { this.told = all; this.tell({put: changed}) }
+    const changed = others(all, this.sent)
+    if (this.ready && Object.keys(changed).length) { this.sent = all; this.tell({put: changed}) }
   }
 
   close() { this.frame?.remove(); this.frame = null; this.ready = false }
@@ -122,7 +122,7 @@ export class Second {
   // A new element, so that the browser's history has no entry of it.
   make(all, controls) {
     this.close()
-    this.told = all
+    this.sent = all
     this.frame = document.createElement("iframe")
     this.frame.name = SECOND
     this.frame.title = SAYS.secondPortrait
@@ -149,8 +149,8 @@ export class Second {
     const {own, page} = this, mine = {}, shared = {}
     for (const [name, value] of Object.entries(message.moved)) {
       if (name in own) mine[name] = value
-      else if (name in this.told) shared[name] = value
-      if (name in this.told) this.told = {...this.told, [name]: value}
+      else if (name in this.sent) shared[name] = value
+      if (name in this.sent) this.sent = {...this.sent, [name]: value}
     }
     const theirs = others(shared, page.values)
     if (Object.keys(others(mine, own)).length) page.keep(writeOwn({...own, ...mine})) // before the two are compared again

@@ -18,7 +18,7 @@ const MARKUP = `
   <h2>In another page</h2>
   <p class="note"><label>Embed with these sliders: <input type="text" class="names" value="f1,f2" spellcheck="false" autocomplete="off"></label></p>
   <div class="row"><input type="text" class="html" readonly aria-label="HTML of the frame"><button type="button" data-copies="html">Copy</button></div>
-  <p class="note told" role="status"></p>
+  <p class="note copied" role="status"></p>
   <div class="take"></div>`
 
 export class Share {
@@ -42,7 +42,7 @@ export class Share {
 
   async open() {
     if (!this.dialog.firstElementChild) this.make()
-    this.find(".told").textContent = ""
+    this.find(".copied").textContent = ""
     const query = this.query(this.find(".goal").value || undefined)
     const short = await compressQuery(query, this.version)
     const page = location.origin + location.pathname
@@ -84,7 +84,7 @@ export class Share {
       button.addEventListener("click", async () => {
         const box = this.find(`.${button.dataset.copies}`)
         await copyText(box)
-        this.find(".told").textContent = "Copied."
+        this.find(".copied").textContent = "Copied."
       })
     }
   }

@@ -84,14 +84,14 @@ export class Steps {
    * @param {Listed | Browsed} kept
    * @param {() => Snapshot} look returns the present snapshot
    * @param {(snapshot: Snapshot) => void} restore
-   * @param {() => void} told is called when what can be undone or redone has changed
+   * @param {() => void} notify is called when what can be undone or redone has changed
    * @param {{setTimeout: Function, clearTimeout: Function}} clock
    */
-  constructor(kept, look, restore, told = () => {}, clock = globalThis) {
+  constructor(kept, look, restore, notify = () => {}, clock = globalThis) {
     this.kept = kept
     this.look = look
     this.restore = restore
-    this.told = told
+    this.notify = notify
     this.clock = clock
     this.timer = null
     this.held = false
@@ -106,7 +106,7 @@ export class Steps {
     if (this.timer !== null) this.clock.clearTimeout(this.timer)
     const fresh = this.timer === null
     this.timer = this.clock.setTimeout(() => { if (this.held) { this.timer = null; this.changed() } else this.settle() }, QUIET)
-    if (fresh) this.told()
+    if (fresh) this.notify()
   }
   /** What has changed follows from the present step, and belongs to it. */
   amend() {
@@ -119,7 +119,7 @@ export class Steps {
     this.timer = null
     const now = this.look()
     if (!same(now, this.kept.present)) this.kept.add(now)
-    this.told()
+    this.notify()
   }
   /** The link of the present step is another. */
   rewrite() { if (this.kept instanceof Browsed) this.kept.write("replaceState") }
@@ -135,6 +135,6 @@ export class Steps {
   put = (snapshot) => {
     this.restoring = true
     try { this.restore(snapshot) } finally { this.restoring = false }
-    this.told()
+    this.notify()
   }
 }

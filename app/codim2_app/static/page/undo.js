@@ -23,7 +23,7 @@ export function undoable(root, plot, how, rest, does) {
     root.dataset.kept = !steps.pending
     if (!steps.pending) settled()
   })
-  steps.told()
+  steps.notify()
   undo.addEventListener("click", () => steps.undo())
   redo.addEventListener("click", () => steps.redo())
   if (page) window.addEventListener("popstate", (event) => { steps.arrived(event.state); rest.note("history", false) })

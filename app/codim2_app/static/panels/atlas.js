@@ -133,9 +133,9 @@ class Atlas {
   // In the plane of f the handle is f, and the portrait is that of f(z): z moves it along a line.
   chart(values) {
     const handle = this.axes.map((name) => this.tools.valueOf(name))
-    const {of, spans, regions, curves: all, still, points: told, stillPoints, note} = this.map.of === this.of ? this.map : this.empty
+    const {of, spans, regions, curves: all, still, points: everyPoint, stillPoints, note} = this.map.of === this.of ? this.map : this.empty
     const withCycles = values.cycle_curves === "show"
-    const curves = withCycles ? all : still, points = withCycles ? told : stillPoints
+    const curves = withCycles ? all : still, points = withCycles ? everyPoint : stillPoints
     const box = of ? spans : this.axes.map((name, i) => rangeFor(this.tools.rangeOf(name), handle[i]))
     if (this.isStrip) { handle[1] = 0.5; box[1] = [0, 1] }
     const {k1, k2, z} = values, [f1, f2] = handle, moves = this.isPlane && (k1 || k2)

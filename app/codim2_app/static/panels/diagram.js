@@ -82,12 +82,12 @@ class Diagram {
 
   // The same as a film.
   async take() {
-    const {along} = this.values, told = this.find(".making"), button = this.find(".gif")
+    const {along} = this.values, making = this.find(".making"), button = this.find(".gif")
     if (!this.fits()) return
     button.disabled = true
     const events = [...new Set(this.special.map(({value}) => plain(value)))].slice(0, MOST_EVENTS)
-    const answer = await this.tools.take({kind: "gif", sliders: [`${along}=${this.data.span};${events}`]}, (done, all) => { told.textContent = `Drawing the film: ${done} of ${all} pictures …` })
-    told.textContent = answer.error ?? save(new Blob([answer.file], {type: answer.type}), answer.name)
+    const answer = await this.tools.take({kind: "gif", sliders: [`${along}=${this.data.span};${events}`]}, (done, all) => { making.textContent = `Drawing the film: ${done} of ${all} pictures …` })
+    making.textContent = answer.error ?? save(new Blob([answer.file], {type: answer.type}), answer.name)
     button.disabled = false
   }
 

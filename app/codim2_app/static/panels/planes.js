@@ -16,7 +16,7 @@ class Planes {
     this.box = box
     this.trail = []
     this.critical = null
-    this.beside = null // the curve over n, or the points of the families
+    this.family = null // the curve over n, or the points of the families
     box.innerHTML = `<svg class="plane trace-plane" role="img"></svg><svg class="plane eigen-plane" role="img"></svg>
       <svg class="plane psi-plane" role="img" aria-label="The regularisation functions compared"></svg>
       <p class="note plane-note"></p><div class="plane-table"></div>`
@@ -39,49 +39,49 @@ class Planes {
     if (header.planes) {
       const {trace, determinant, text, kind, line, sentence, s, psis} = header.planes
       const points = trace.map((value, i) => ({trace: value, determinant: determinant[i], text: text[i], kind: kind[i]}))
-      this.beside = {line, sentence, s, psis, curve: withDouble(points), named: points.filter((one) => one.text)}
+      this.family = {line, sentence, s, psis, curve: withDouble(points), named: points.filter((one) => one.text)}
     }
     if ((header.critical || header.planes) && !this.box.hidden) this.draw()
   }
 
   draw() {
     if (!this.critical) return
-    const beside = this.beside ?? {line: false, curve: [], named: [], sentence: "", s: [], psis: []}
+    const family = this.family ?? {line: false, curve: [], named: [], sentence: "", s: [], psis: []}
     // the curve goes on to far away: its named points are in view
-    const all = [...this.trail.flat(), ...this.critical, ...beside.named]
+    const all = [...this.trail.flat(), ...this.critical, ...family.named]
     const shown = all.some((one) => one.trace || one.determinant) ? all : [ALONE]
-    for (const [name, empty] of [[".trace-plane", !all.length], [".eigen-plane", !all.length], [".psi-plane", !beside.psis.length]]) this.find(name).toggleAttribute("hidden", empty)
-    if (all.length) { this.drawTrace(shown, beside); this.drawEigenvalues(shown, beside) }
-    if (beside.psis.length) this.drawPsis(beside)
-    this.find(".plane-note").textContent = this.critical.length ? beside.sentence : SAYS.noCriticalSet
-    this.find(".plane-table").innerHTML = beside.named.length ? `<table><tr><th></th><th>tr J</th><th>det J</th><th></th></tr>${beside.named.map((one) =>
+    for (const [name, empty] of [[".trace-plane", !all.length], [".eigen-plane", !all.length], [".psi-plane", !family.psis.length]]) this.find(name).toggleAttribute("hidden", empty)
+    if (all.length) { this.drawTrace(shown, family); this.drawEigenvalues(shown, family) }
+    if (family.psis.length) this.drawPsis(family)
+    this.find(".plane-note").textContent = this.critical.length ? family.sentence : SAYS.noCriticalSet
+    this.find(".plane-table").innerHTML = family.named.length ? `<table><tr><th></th><th>tr J</th><th>det J</th><th></th></tr>${family.named.map((one) =>
       `<tr><td>${escape(one.text)}</td><td>${digits(one.trace)}</td><td>${digits(one.determinant)}</td><td>${one.kind}</td></tr>`).join("")}</table>` : ""
   }
 
-  drawTrace(shown, beside) {
+  drawTrace(shown, family) {
     const [reach, low, high] = traceSpans(shown)
     const t = Array.from({length: 65}, (_, i) => 2 * Math.sqrt(high) * (i / 32 - 1)).filter((v) => Math.abs(v) <= reach)
     const at = (one) => [[one.trace, one.determinant]]
     this.traceChart.draw([{
       title: "determinant of J over its trace", zeros: true, x: {span: [-reach, reach], word: "tr J"}, y: {span: [low, high]},
       areas: [{name: "stable", points: [[-reach, 0], [0, 0], [0, high], [-reach, high]]}],
-      ...this.drawn(beside, at, [{name: "parabola", title: "tr² = 4 det", silent: true, x: t, y: t.map((v) => v * v / 4)}]),
+      ...this.drawn(family, at, [{name: "parabola", title: "tr² = 4 det", silent: true, x: t, y: t.map((v) => v * v / 4)}]),
       labels: [
-        ...this.names(beside, at),
+        ...this.names(family, at),
         ...KINDS.map((name) => ({text: name, name: "region-name", near: favourite(name, reach, low, high), allowed: (x, y) => kindAt({trace: x, determinant: y}) === name})),
       ],
     }])
     this.find(".trace-plane").setAttribute("aria-label", this.critical.map((C) => `${C.label}: ${C.kind}, trace ${digits(C.trace)}, determinant ${digits(C.determinant)}`).join("; "))
   }
 
-  drawEigenvalues(shown, beside) {
+  drawEigenvalues(shown, family) {
     const all = shown.flatMap((one) => eigenvalues(one))
     const across = 1.2 * largest(all.map(([re]) => re)), up = 1.2 * Math.max(0.3 * across, ...all.map(([, im]) => Math.abs(im)))
     this.eigenChart.draw([{
       title: "eigenvalues of J", zeros: true, x: {span: [-across, across], word: "Re λ"}, y: {span: [-up, up]},
       areas: [{name: "stable", points: [[-across, -up], [0, -up], [0, up], [-across, up]]}],
-      ...this.drawn(beside, eigenvalues, []),
-      labels: [...this.names(beside, eigenvalues), {text: "Im λ", name: "label", near: [0, up]}, {text: "stable", name: "region-name", near: [-across, up], allowed: (x) => x < 0}],
+      ...this.drawn(family, eigenvalues, []),
+      labels: [...this.names(family, eigenvalues), {text: "Im λ", name: "label", near: [0, up]}, {text: "stable", name: "region-name", near: [-across, up], allowed: (x) => x < 0}],
     }])
     this.find(".eigen-plane").setAttribute("aria-label", this.critical.map((C) => `eigenvalues of ${C.label}: ${eigen(eigenvalues(C))}`).join("; "))
   }
@@ -101,14 +101,14 @@ class Planes {
 
   // Lines and dots of both planes; `places` gives the one or two points of a critical set. The trail is that of the first
   // critical set, older parts fainter; where there was none it has a gap.
-  drawn(beside, places, lines) {
+  drawn(family, places, lines) {
     const count = places({trace: 0, determinant: 0}).length
     for (let k = 0; k < count; k++) {
       const curve = (name, ones, opacity) => {
         const points = ones.map((one) => places(one)[k])
         lines.push({name, silent: true, opacity, x: points.map(([x]) => x), y: points.map(([, y]) => y)})
       }
-      if (beside.line) curve("over", beside.curve)
+      if (family.line) curve("over", family.curve)
       for (let i = 1; i < this.trail.length; i++) {
         const [from, to] = [this.trail[i - 1][0], this.trail[i][0]]
         if (from && to) curve("trail", [from, to], 0.8 * i / this.trail.length)
@@ -116,14 +116,14 @@ class Planes {
     }
     const dots = (ones, name, r, title) => ones.flatMap((one) => places(one).map(([x, y]) => ({name: name(one), r, x, y, title: title(one)})))
     return {lines, dots: [
-      ...dots(beside.named, () => "over-mark", 2.6, (one) => `${one.text}: ${one.kind}`),
+      ...dots(family.named, () => "over-mark", 2.6, (one) => `${one.text}: ${one.kind}`),
       ...dots(this.critical, (C) => `now${C.kind.startsWith("stable") ? " filled" : ""}`, 5, (C) => `${C.label}: ${C.kind}`),
     ]}
   }
 
   // A name stands once, where it covers nothing, or is left to the table.
-  names(beside, places) {
-    return beside.named.map((one) => ({text: one.text, at: places(one)[0]}))
+  names(family, places) {
+    return family.named.map((one) => ({text: one.text, at: places(one)[0]}))
   }
 }
 

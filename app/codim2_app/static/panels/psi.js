@@ -28,10 +28,10 @@ class PsiCurves {
   }
 
   tell(eps) {
-    const told = (value) => value === null ? "" : minus(plain(Number(value.toPrecision(3))))
-    const speeds = (...values) => values.filter((value) => value !== null).map((value) => told(eps * value)).join(", ")
+    const number = (value) => value === null ? "" : minus(plain(Number(value.toPrecision(3))))
+    const speeds = (...values) => values.filter((value) => value !== null).map((value) => number(eps * value)).join(", ")
     const rows = this.engines.map(([names, law, verdict, trace, creep, chatter], i) => `<tr><th scope="row"><button data-row="${i}" title="Draw Ψ(s) = ${escape(law)}">${escape(names)}</button></th>
-      <td class="${escape(verdict.split(" ")[0])}">${escape(verdict)}</td><td>${told(trace)}</td><td>${speeds(creep, chatter)}</td></tr>`)
+      <td class="${escape(verdict.split(" ")[0])}">${escape(verdict)}</td><td>${number(trace)}</td><td>${speeds(creep, chatter)}</td></tr>`)
     this.box.querySelector(".engines").innerHTML = `<thead><tr><th>engine</th><th>contact</th><th>tr J</th><th>slip</th></tr></thead><tbody>${rows.join("")}</tbody>`
   }
 

@@ -88,7 +88,7 @@ class Response {
     this.chart.at(at)
     this.svg.setAttribute("aria-valuenow", at)
     const {multipliers, stable} = this.data
-    this.find(".response-here").textContent = this.here.map(({i, amplitude, period}) => `${stable[i] ? "Stable" : "Unstable"}: amplitude ${digits(amplitude)}, period ${digits(period)}, multipliers about ${told(multipliers[i])}.`).join(" ")
+    this.find(".response-here").textContent = this.here.map(({i, amplitude, period}) => `${stable[i] ? "Stable" : "Unstable"}: amplitude ${digits(amplitude)}, period ${digits(period)}, multipliers about ${sentenceOf(multipliers[i])}.`).join(" ")
   }
 
   drawAll() {
@@ -126,7 +126,7 @@ function cut(stable) {
 }
 
 // Multipliers in words, of two that are conjugate one.
-function told(multipliers) {
+function sentenceOf(multipliers) {
   return multipliers.filter(([, im]) => im >= 0).map(([re, im]) => minus(im ? `${digits(re)} ± ${digits(im)}i` : digits(re))).join(", ")
 }
 

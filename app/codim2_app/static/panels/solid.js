@@ -1,7 +1,7 @@
 // The panel "3-D": the hemisphere of the blowup, or hemispheres stacked along z. Turned here, without asking the server.
 
 import {register} from "../widgets/panels.js"
-import {Told} from "../widgets/told.js"
+import {Readout} from "../widgets/readout.js"
 import {say} from "../dom.js"
 import {rotateView} from "../chart/projection.js"
 import {largest} from "../chart/scale.js"
@@ -19,7 +19,7 @@ class Stack {
     const buttons = Object.entries(tools.settings.views).map(([view, words]) => `<button type="button" data-view="${view}">${words}</button>`)
     box.innerHTML = `<div class="row">${buttons.join("")}</div>
       <canvas class="solid" tabindex="0" role="application" aria-label="The blowup in three dimensions: drag to turn, or use the arrow keys"></canvas>
-      <p class="note solid-told" role="status" hidden></p><p class="note solid-note"></p>`
+      <p class="note solid-readout" role="status" hidden></p><p class="note solid-note"></p>`
     this.box = box
     this.tools = tools
     this.find = (name) => box.querySelector(name)
@@ -31,11 +31,11 @@ class Stack {
     this.why = {}
     for (const button of this.box.querySelectorAll("[data-view]")) button.addEventListener("click", () => tools.choose("solid", button.dataset.view))
     this.canvas.addEventListener("pointerdown", (event) => { this.canvas.setPointerCapture(event.pointerId); this.from = [event.clientX, event.clientY] })
-    this.told = new Told(this.canvas, this.find(".solid-told"), () => this.paint())
-    this.canvas.addEventListener("pointerdown", (event) => this.told.under(event))
-    this.canvas.addEventListener("pointerleave", () => say(this.find(".solid-told"), ""))
+    this.readout = new Readout(this.canvas, this.find(".solid-readout"), () => this.paint())
+    this.canvas.addEventListener("pointerdown", (event) => this.readout.under(event))
+    this.canvas.addEventListener("pointerleave", () => say(this.find(".solid-readout"), ""))
     this.canvas.addEventListener("pointermove", (event) => {
-      if (!this.from) { this.told.under(event); return }
+      if (!this.from) { this.readout.under(event); return }
       this.turn((event.clientX - this.from[0]) / 120, (event.clientY - this.from[1]) / 160)
       this.from = [event.clientX, event.clientY]
     })
@@ -43,7 +43,7 @@ class Stack {
     this.canvas.addEventListener("keydown", (event) => {
       const way = {ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.08], ArrowDown: [0, -0.08]}[event.key]
       if (way) { event.preventDefault(); this.turn(...way) }
-      else if (event.key === "Enter") this.told.step(event.shiftKey ? -1 : 1)
+      else if (event.key === "Enter") this.readout.step(event.shiftKey ? -1 : 1)
     })
     new ResizeObserver(() => this.paint()).observe(this.canvas)
   }
@@ -69,7 +69,7 @@ class Stack {
 
   draw(values) { this.values = values; this.view = values.solid; this.paint() }
 
-  place(point, said, stop) { this.told.places.push({at: this.project(point), said, stop}) }
+  place(point, said, stop) { this.readout.places.push({at: this.project(point), said, stop}) }
 
   // From space to the canvas, in px, with the depth.
   project(point) {
@@ -89,7 +89,7 @@ class Stack {
     const style = getComputedStyle(this.tools.root)
     this.colour = (name) => style.getPropertyValue(`--${name}`).trim()
     for (const button of this.box.querySelectorAll("[data-view]")) button.setAttribute("aria-pressed", button.dataset.view === this.view)
-    this.told.clear()
+    this.readout.clear()
     const data = this.view === "sphere" ? {} : this.data[this.view]
     this.find(".solid-note").textContent = data ? [data.sentence, this.view === "filippov" && inPairs(data) && SAYS.ends].filter(Boolean).join(" ") : this.why[this.view] || "…"
     if (!data) return
@@ -296,8 +296,8 @@ class Stack {
     for (const value of candidates) this.place(on(value), `${SAYS.candidate}, ${z(value)}`, "first")
     if (cross !== null) this.place(on(cross), `${SAYS.affine}, ${z(cross)}`, "first")
     for (const [value, kind] of selected) this.place(on(value), `${SAYS.selected} (${kind}), ${z(value)}`, "first")
-    this.told.ring(this.g, this.colour("ink"))
-    this.find(".solid-told").hidden = false
+    this.readout.ring(this.g, this.colour("ink"))
+    this.find(".solid-readout").hidden = false
   }
 
   cross(point) {

@@ -3,7 +3,7 @@
 
 import {register} from "../widgets/panels.js"
 import {setMarkup} from "../dom.js"
-import {besides} from "../page/inspector.js"
+import {neighbours} from "../page/inspector.js"
 import {SAYS, escape, formula, claimNumber} from "../words.js"
 
 const MARK = {holds: ["✓", "holds"], fails: ["✗", "fails"], "does not apply": ["–", "idle"]}
@@ -21,7 +21,7 @@ register("theorems", (box, {settings}) => {
     apply({header}) {
       if (header.portrait) {
         const {degeneracies, sides} = header.portrait
-        setMarkup(cards, degeneracies.map(([title, words]) => `<li class="bifurcation"><b>${escape(title)}</b> <code>${escape(settings[title] ?? "")}</code><p>${formula(words)}</p>${besides(sides)}</li>`).join(""))
+        setMarkup(cards, degeneracies.map(([title, words]) => `<li class="bifurcation"><b>${escape(title)}</b> <code>${escape(settings[title] ?? "")}</code><p>${formula(words)}</p>${neighbours(sides)}</li>`).join(""))
       }
       if (!header.theorems) return
       const [bears, idle] = [true, false].map((wanted) => header.theorems.filter(([, , verdict]) => (verdict !== "does not apply") === wanted).map(row).join(""))

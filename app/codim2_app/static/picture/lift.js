@@ -36,10 +36,10 @@ export function projection({up, azimuth, elevation, x: left, y: top, scale, open
 }
 
 export class Lift {
-  /** @param {any} root the explorer @param {any} picture @param {(on: boolean) => void} told is called when it goes up or down */
-  constructor(root, picture, told) {
+  /** @param {any} root the explorer @param {any} picture @param {(on: boolean) => void} changed is called when it goes up or down */
+  constructor(root, picture, changed) {
     this.root = root
-    this.told = told
+    this.changed = changed
     this.picture = picture
     this.up = 0
     this.way = 0 // whether it goes up, down, or rests
@@ -89,7 +89,7 @@ export class Lift {
     this.button.textContent = this.way === 1 ? SAYS.flat : SAYS.lift
     this.root.classList.toggle("aloft", this.way === 1)
     this.canvas.hidden = false
-    this.told(this.way === 1)
+    this.changed(this.way === 1)
     const {way} = this
     let before = performance.now()
     const step = (/** @type {number} */ now) => {

@@ -49,8 +49,8 @@ export class Dots {
     this.rows = rows ?? []
     const {first, setting: names, families} = this.tools
     this.places = placeDots(this.rows, mine, {axes, plane, first, names, families})
-    if (this.told !== rows || this.here !== this.places.length) this.count()
-    this.told = rows
+    if (this.counted !== rows || this.here !== this.places.length) this.count()
+    this.counted = rows
     this.here = this.places.length
     this.draw()
   }

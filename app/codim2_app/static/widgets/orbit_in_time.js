@@ -170,8 +170,8 @@ export class OrbitInTime {
     const there = z.slice(0, 4).map((value, i) => `${this.slowSymbols()[i] ?? slowName(i)} = ${digits(value, 3)}`), here = this.slow.slice(0, there.length).map((value) => digits(value, 3))
     const place = there.every((one, i) => one.endsWith(` = ${here[i]}`)) ? there.join(", ") : `${there.join(", ")}; ${SAYS.pictureAt} ${here.join(", ")}`
     this.trace(drawn.map((one) => one?.picture), sampleAt(run.t, run.picture, at), {words: place, near: drawn.map((one) => one && typed ? nearTo(one, z) : undefined)})
-    const told = [x, y, theta, radius].map((value, i) => `${words[i].split(" ")[0]} = ${digits(value, 3)}`).concat(there)
-    this.find(".orbit-now").textContent = `${words[4]} = ${digits(at, 3)}: ${told.join(", ")}`
+    const shown = [x, y, theta, radius].map((value, i) => `${words[i].split(" ")[0]} = ${digits(value, 3)}`).concat(there)
+    this.find(".orbit-now").textContent = `${words[4]} = ${digits(at, 3)}: ${shown.join(", ")}`
     this.find(".phase-now").textContent = this.phaseAt(at)
     if (this.rolls) this.ball.show(this.rolls, at)
     else if (!orbit.fast) this.slips([x, y])

@@ -80,8 +80,8 @@ export function puckMarkup(width, height, shown, plane) {
     const [wide] = textSize(words, size), tx = x + far * u, ty = y + far * v, at = (/** @type {number} */ along) => [n(x + along * u), n(y + along * v)].join(" ")
     const away = (/** @type {number} */ gap) => [x + (gap + Math.max(far, r)) * u + u * wide / 2, y + (gap + Math.max(far, r)) * v + v * size / 2]
     const place = space.place(words, [away(6), [tx + Math.abs(v) * (8 + wide / 2) , ty - u * (8 + size / 2)], [tx - Math.abs(v) * (8 + wide / 2), ty + u * (8 + size / 2)], ...space.around(away(8), 120)], undefined, size)
-    const told = place ? `<text x="${n(place[0])}" y="${n(place[1])}" font-size="${n(size)}">${words}</text>` : ""
-    return `<g class="arrow ${kind}"><path class="shaft" stroke-width="${n(w)}" d="M${at(base)}L${at(far - 0.8 * h)}"/><path d="M${n(tx)} ${n(ty)}L${n(tx - h * u - h * v / 2)} ${n(ty - h * v + h * u / 2)}L${n(tx - h * u + h * v / 2)} ${n(ty - h * v - h * u / 2)}Z"/>${told}</g>`
+    const label = place ? `<text x="${n(place[0])}" y="${n(place[1])}" font-size="${n(size)}">${words}</text>` : ""
+    return `<g class="arrow ${kind}"><path class="shaft" stroke-width="${n(w)}" d="M${at(base)}L${at(far - 0.8 * h)}"/><path d="M${n(tx)} ${n(ty)}L${n(tx - h * u - h * v / 2)} ${n(ty - h * v + h * u / 2)}L${n(tx - h * u + h * v / 2)} ${n(ty - h * v - h * u / 2)}Z"/>${label}</g>`
   })
   return `<ellipse class="shadow" cx="${n(x + 0.12 * r)}" cy="${n(y + 0.2 * r)}" rx="${n(1.04 * r)}" ry="${n(r)}"/><circle class="body" cx="${n(x)}" cy="${n(y)}" r="${n(r)}"/><circle class="shine" cx="${n(x)}" cy="${n(y)}" r="${n(0.62 * r)}"/>${drawn.join("")}`
 }

@@ -24,7 +24,7 @@ from ...picture.state.controls import first_values
 from .once import alone
 
 #: Receives what has been compiled, in how many seconds, and how many steps are done of how many.
-Told = Callable[[str, float, int, int], None]
+Report = Callable[[str, float, int, int], None]
 
 #: What general systems need kernels for, in several steps: none takes more memory than a server has to spare.
 GENERAL_LAYERS = ("equator", "critical", "nullclines_inside", "nullclines_outside", "cycles", "separatrices")
@@ -52,16 +52,16 @@ def kernel_steps() -> list[tuple[str, Callable[[], object]]]:
 FIRST_PRIORITY, PICTURES = 3, -2
 
 
-def tell_nobody(*_: object) -> None:
+def report_nothing(*_: object) -> None:
     """Let nobody know."""
 
 
-def warm_all(told: Told = tell_nobody) -> None:
+def warm_all(report: Report = report_nothing) -> None:
     """Compile, or load from the disk cache, what all built-in families and the kernels of general systems need.
 
     Parameters
     ----------
-    told : callable
+    report : callable
         Called with what has been compiled, the seconds that it took, how many steps are done, and of how many.
     """
     steps = kernel_steps()
@@ -70,7 +70,7 @@ def warm_all(told: Told = tell_nobody) -> None:
             began = time.perf_counter()
             make_()
             took = time.perf_counter() - began
-        told(what, took, number, len(steps))
+        report(what, took, number, len(steps))
 
 
 def draw_first_scene() -> None:

@@ -279,7 +279,7 @@ class ConnectionCurve:
         return np.array([pair.ratio for pair in self.pairs])
 
     def passes(self, place: Array, pair: BranchPair) -> bool:
-        """Whether a place lies on it: the unstable branch tells of which connection."""
+        """Whether a place lies on it: by its unstable branch."""
         away = feet(place, self.plane)[2]
         i = int(away.argmin())
         ways = [one.leaving.signature for one in self.pairs[i : i + 2]]
@@ -349,7 +349,7 @@ def connection_curves(
                 missed.append(seed)
             else:
                 found.append(one)
-    out, told = [], []
+    out, marks = [], []
     for one in found:
         kinds = [_connection_kind(pair) for pair in one.pairs]
         kind = kinds[0] if len(set(kinds)) == 1 else CONNECTION
@@ -366,13 +366,15 @@ def connection_curves(
                 plane = np.concatenate([plane[::order], corner[None]])[::order]
                 places, ratios = (np.concatenate([row[::order], row[i][None]])[::order] for row in (places, ratios))
             elif end in ("lost", "many"):
-                told.append(_end_point(family, one.plane[i], kind, curves))
+                marks.append(_end_point(family, one.plane[i], kind, curves))
         numbers = ratios if kind != CONNECTION else np.zeros(0)
         out.append(AtlasCurve(kind, read_only(family.values(plane)), read_only(places), read_only(numbers)))
         if kind != CONNECTION:
-            told += [_point(family, "neutral loop", at, say("neutral connection", kind=kind)) for at in one.neutral()]
+            marks += [
+                _point(family, "neutral loop", at, say("neutral connection", kind=kind)) for at in one.neutral()
+            ]
     lost = [_connection_kind(seed.pair) for seed in missed if not is_known(seed.place, seed.pair)]
-    return out, told, tuple(dict.fromkeys([*lost, *(KINDS if search.crowded else ())]))
+    return out, marks, tuple(dict.fromkeys([*lost, *(KINDS if search.crowded else ())]))
 
 
 def _connection_kind(pair: BranchPair) -> str:

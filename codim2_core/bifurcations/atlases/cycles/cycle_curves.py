@@ -139,19 +139,19 @@ def cycle_curves(
         if not any(_passes_seed(one, seed) for one in found):
             one = trace_fold(family, seed.start, corners)
             found += [one] if one is not None else []
-    out, told = [], []
+    out, special = [], []
     for one in _without_parts(family, found):
         plane, sizes, ends = _extend_to_ends(one, known)
         places = np.full((len(plane), 2), math.nan)
         out.append(AtlasCurve(KIND, read_only(family.values(plane)), read_only(places), read_only(sizes)))
-        told += [*ends, *(("cusp of cycles", at, say("cusp of cycles")) for at in one.cusps)]
-    told += [
+        special += [*ends, *(("cusp of cycles", at, say("cusp of cycles")) for at in one.cusps)]
+    special += [
         ("undecided", place, say("fold not caught"))
         for place in missed
         if not any(_comes_to(one, place) for one in found)
     ]
     return out, [AtlasPoint(kind, (float(at[0]), float(at[1])), text)
-                 for kind, place, text in told for at in [family.values(place)]]  # fmt: skip
+                 for kind, place, text in special for at in [family.values(place)]]  # fmt: skip
 
 
 def _without_parts(family: SystemFamily, found: Sequence[FoldCurve]) -> list[FoldCurve]:
@@ -182,7 +182,7 @@ def _extend_to_ends(
     one: FoldCurve, known: Mapping[str, Sequence[Array]]
 ) -> tuple[Array, Array, list[tuple[str, Array, str]]]:
     """Return a curve drawn on to the points of codimension two at its ends, and what is to be said of these."""
-    plane, sizes, told = one.plane, one.sizes, []
+    plane, sizes, ends = one.plane, one.sizes, []
     for end, i in zip(one.ends, (0, -1), strict=True):
         last, size = one.plane[i], float(one.sizes[i])
         at, kind, text = _end(end, last, size, float(one.heights[i]), known)
@@ -193,8 +193,8 @@ def _extend_to_ends(
             plane = np.concatenate([at[None], plane] if i == 0 else [plane, at[None]])
             sizes = np.concatenate([[size], sizes] if i == 0 else [sizes, [size]])
         if text:
-            told.append((kind, last if at is None else at, text))
-    return plane, sizes, told
+            ends.append((kind, last if at is None else at, text))
+    return plane, sizes, ends
 
 
 def _end(

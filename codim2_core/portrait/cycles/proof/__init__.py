@@ -63,6 +63,6 @@ Bernstein coefficients bound it: sums that are exact in integers, then halved wi
 the core, from there on; if none of them meets the equator, an oval is around them; then all on which P may have the
 other sign; and so on.
 
-Only what `check.py` shows stands proved; it relies on NumPy's exp and powers being right to 1e-13 of the value. How P
+Only what `check.py` shows is proved; it relies on NumPy's exp and powers being right to 1e-13 of the value. How P
 was found, by linear programming in `search`, proves nothing.
 """

@@ -1,4 +1,4 @@
-"""Check a certificate of limit cycles: ``python check.py < FILE``. Why it proves them stands in `__init__.py` here."""
+"""Check a certificate of limit cycles: ``python check.py < FILE``. `__init__.py` says why it proves them."""
 
 import json
 import sys

@@ -33,7 +33,7 @@ class FoundCycle(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Proof(Result):
-    """Whether the count of limit cycles stands proved, and what else does; true in a condition exactly then.
+    """Whether the count of limit cycles is proved, and what else is; true in a condition exactly then.
 
     Attributes
     ----------

@@ -27,8 +27,8 @@ test("the dialog writes a frame with the controls that are named, and copies", a
   const code = dialog.querySelector(".qr")
   assert.deepEqual([code.getAttribute("src") ?? code.src, code.hidden], [qrAddress("http://h/codim2?v=1"), false])
   one.fire(dialog.querySelector("[data-copies=address]"), "click")
-  await wait(() => dialog.querySelector(".told").textContent)
-  assert.deepEqual([copied, dialog.querySelector(".told").textContent], [["http://h/codim2?v=1"], "Copied."])
+  await wait(() => dialog.querySelector(".copied").textContent)
+  assert.deepEqual([copied, dialog.querySelector(".copied").textContent], [["http://h/codim2?v=1"], "Copied."])
   clipboard.writeText = () => Promise.reject(new Error("no https"))
   one.document.execCommand = (name) => Boolean(copied.push(name))
   one.fire(dialog.querySelector("[data-copies=html]"), "click")
@@ -44,7 +44,7 @@ test("the dialog writes a frame with the controls that are named, and copies", a
   opened.length = 0
   click(one, ".share")
   await wait(() => opened.length > 0)
-  assert.deepEqual([opened, dialog.querySelector(".told").textContent], [["select"], ""])
+  assert.deepEqual([opened, dialog.querySelector(".copied").textContent], [["select"], ""])
 })
 
 test("from the dialog a room is opened, or entered by its code; in a frame there are none", async () => {

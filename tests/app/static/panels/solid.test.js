@@ -54,7 +54,7 @@ test("the panel solid: the hemisphere is the picture, lifted, with its axes and 
 test("the panel solid: what the Filippov view shows is told under the pointer, and nothing next to it", () => {
   const curve = [[1, 0, 0.5], [0, 1, 0], [-1, 0, -0.5], [0, -1, 0], [1, 0, 0.5]]
   const data = {plane: [], cross: null, curve, candidates: [-0.25, 0.25], combined: [[], []], selected: [[0.125, "stable node"]], sentence: "All."}
-  const one = solid({filippov: data}, {solid: "filippov"}), told = () => one.find(".solid-told")
+  const one = solid({filippov: data}, {solid: "filippov"}), told = () => one.find(".solid-readout")
   one.drawn()
   assert.equal(told().hidden, false)
   const lift = (value) => 1.5 * (value + 0.5 - 0.5), scale = Math.min(WIDTH / 2.3, HEIGHT / (1.9 * Math.cos(0.5) + 2 * Math.sin(0.5)))
@@ -74,7 +74,7 @@ test("the panel solid: what the Filippov view shows is told under the pointer, a
 test("the panel solid: Enter tells one thing of the Filippov view after the other, what lies on Σ first, and rings it", () => {
   const curve = Array.from({length: 49}, (_, i) => [Math.cos(i * Math.PI / 24), Math.sin(i * Math.PI / 24), 0.5])
   const data = {plane: [], cross: null, curve, candidates: [-0.25, 0.25], combined: [[], []], selected: [[0.125, "stable node"]], sentence: "All."}
-  const one = solid({filippov: data, ...MARKS}, {solid: "filippov"}), told = () => one.find(".solid-told").textContent
+  const one = solid({filippov: data, ...MARKS}, {solid: "filippov"}), told = () => one.find(".solid-readout").textContent
   const press = (more = {}) => { one.fire(one.canvas, "keydown", {key: "Enter", ...more}); return told() }
   const rings = () => paths(one.drawn()).filter(({how, points}) => how === "stroke" && points.length === 1).length
   const none = rings()

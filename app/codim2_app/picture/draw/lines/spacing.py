@@ -143,8 +143,8 @@ def _kept_pieces(offsets, points, guards, others, order, apart, shortest, left, 
                 if free:
                     cell = (int((x - left) / apart) + 1) * rows + int((y - bottom) / apart) + 1
                     for below in (cell, cell - rows, cell + rows):
-                        for beside in range(below - 1, below + 2):
-                            other = newest[beside]
+                        for neighbour in range(below - 1, below + 2):
+                            other = newest[neighbour]
                             while other > 0 and free:
                                 away_x, away_y = places[other, 0] - x, places[other, 1] - y
                                 free = away_x * away_x + away_y * away_y >= apart * apart

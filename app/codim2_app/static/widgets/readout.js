@@ -1,4 +1,4 @@
-// What a picture in space tells of what is drawn in it: under a pointer, or one thing after the other by keys.
+// The readout of a picture in space: what lies under the pointer, or one thing after the other by keys.
 
 import {say} from "../dom.js"
 import {SAYS} from "../words.js"
@@ -6,7 +6,7 @@ import {SAYS} from "../words.js"
 const REACH = {mouse: 12, pen: 14, touch: 24} // px around what has a card
 const RING = 9 // px around what keys have come to
 
-export class Told {
+export class Readout {
   /** @param {HTMLCanvasElement} canvas @param {HTMLElement} line @param {() => void} paint */
   constructor(canvas, line, paint) {
     this.canvas = canvas
