@@ -370,9 +370,7 @@ def connection_curves(
         numbers = ratios if kind != CONNECTION else np.zeros(0)
         out.append(AtlasCurve(kind, read_only(family.values(plane)), read_only(places), read_only(numbers)))
         if kind != CONNECTION:
-            marks += [
-                _point(family, "neutral loop", at, say("neutral connection", kind=kind)) for at in one.neutral()
-            ]
+            marks += [_point(family, "neutral loop", at, say("neutral connection", kind=kind)) for at in one.neutral()]
     lost = [_connection_kind(seed.pair) for seed in missed if not is_known(seed.place, seed.pair)]
     return out, marks, tuple(dict.fromkeys([*lost, *(KINDS if search.crowded else ())]))
 
