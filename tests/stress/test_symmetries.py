@@ -12,14 +12,12 @@ from hypothesis import strategies as st
 
 from codim2_core import (
     ELinear,
-    approach_outcomes,
     classify,
     critical_sets,
     equator_cycle,
     equator_equilibria,
     limit_cycles,
     psi,
-    separatrices,
     sliding_flow,
     trajectories,
 )  # fmt: skip
@@ -58,30 +56,6 @@ def rounding(equator, plane):
         return 0.0
     gaps = np.diff([*equator.theta, equator.theta[0] + 2.0 * math.pi])
     return 1e-14 * max(1.0, *map(abs, plane)) / min(1.0, float(gaps.min()))
-
-
-@settings(max_examples=60)
-@given(planes, families, st.floats(0, 6.28))
-def test_turning_the_axes(plane, family, phi):
-    """A R-conjugate system through from_matrix: the same numbers, places turned by its own angle."""
-    assume(robust(plane))
-    a, b, d, f1, f2 = plane
-    c, s = math.cos(phi), math.sin(phi)
-    R = np.array([[c, -s], [s, c]])
-    turned = ELinear.from_matrix(R @ np.array([[a, -b], [b, d]]) @ R.T, R @ [f1, f2], B @ R.T, G)
-    angle = turned.at().rotation + phi  # from the axes of `plane` to those of `turned`
-    one, other = equator_equilibria(system(plane)), equator_equilibria(turned)
-    assert len(one) == len(other)
-    np.testing.assert_allclose(circular(one.theta + angle), circular(other.theta), atol=1e-6)
-    np.testing.assert_allclose(np.sort(one.lambda_rho), np.sort(other.lambda_rho), atol=1e-7)
-    np.testing.assert_allclose(np.sort(one.lambda_theta), np.sort(other.lambda_theta), atol=1e-7)
-    assert classify(turned, family).name == classify(system(plane), family).name
-    Q = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
-    for C, D in zip(critical_sets(system(plane), family), critical_sets(turned, family), strict=True):
-        np.testing.assert_allclose(Q @ C.e, D.e, atol=1e-7)
-        np.testing.assert_allclose(Q @ C.x2, D.x2, rtol=1e-5, atol=1e-7)
-        np.testing.assert_allclose(Q @ C.jacobian @ Q.T, D.jacobian, rtol=1e-5, atol=1e-6)
-        np.testing.assert_allclose(C.slow_flow, D.slow_flow, atol=1e-6)
 
 
 @settings(max_examples=60)
@@ -151,24 +125,6 @@ def test_reflecting(plane, family):
     assert classify(one, family).name == classify(other, family).name
 
 
-@settings(max_examples=60)
-@given(planes)
-def test_what_does_not_know_psi(plane):
-    """thm:lineps1, thm:case1, thm:case2: name, index, determinant's sign, slow flow, and in Cases I, II stability."""
-    names = {classify(system(plane), family).name for family in FAMILIES}
-    cases = {classify(system(plane), family).case for family in FAMILIES}
-    assert len(names) == len(cases) == 1
-    sets = [critical_sets(system(plane), family) for family in FAMILIES]
-    assert len({len(found) for found in sets}) == 1
-    for found in zip(*sets, strict=True):
-        assert all((C.e == found[0].e).all() and (C.slow_flow == found[0].slow_flow).all() for C in found)
-        assert len({C.kind == "saddle" for C in found}) == 1
-        angle = {round(math.atan2(C.p[1], C.p[0]), 9) for C in found if found[0].e.any()}
-        assert len(angle) <= 2  # -pi and pi
-        if cases & {"I", "II"}:
-            assert len({C.kind.split()[0] for C in found}) == 1
-
-
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda p: p.text)
 def test_turned_and_reversed_trajectories(family):
     """Half a turn of the seeds is half a turn of the lines; backward in time is forward with -U."""
@@ -199,17 +155,3 @@ def test_cycles_under_all_of_them(n):
     (scaled,) = limit_cycles(system(tuple(v / 64.0 for v in CASE3)), psi.hill(n))
     assert scaled.period == 64.0 * one.period
     assert scaled.multiplier == one.multiplier
-
-
-@pytest.mark.parametrize(
-    "plane", [(-2.0, 0.3, -1.0, -0.5, 0.1), (1.0, 0.3, -2.0, 0.2, 0.3), (-1.0, 0.2, -1.0, 1.5, 0.0)]
-)
-def test_graphs_and_outcomes_turn_with_the_plane(plane):
-    """Labels are turned by as many places as limit directions pass theta = 0; verdicts and the graph stay."""
-    a, b, d, f1, f2 = plane
-    one, other = system(plane), system((a, b, d, -f1, -f2), -B)
-    for family in FAMILIES[:2]:
-        graph = sorted((x[0], y[0]) for x, y in separatrices(one, family).graph)
-        assert graph == sorted((x[0], y[0]) for x, y in separatrices(other, family).graph)
-        verdicts = sorted(o.verdict for o in approach_outcomes(one, family, (0, 0), compare=()).directions)
-        assert verdicts == sorted(o.verdict for o in approach_outcomes(other, family, (0, 0), compare=()).directions)
