@@ -161,12 +161,14 @@ def test_real_pairs_are_no_torus_and_a_branch_is_no_fold():
     assert recognise(through.sentence)[0][0] == "branches off"
 
 
-@pytest.mark.parametrize(("eps", "key", "i"), [(0.0, "leine-block", 2), (1e-2, "leine-block-regularised", 1)])
-def test_leines_cycle_along_the_speed_of_its_belt(eps, key, i):
+@pytest.mark.parametrize(
+    ("eps", "key", "i", "fastest"),
+    [(0.0, "leine-block", 2, 0.4), (0.0, "leine-block", 2, 0.9), (1e-2, "leine-block-regularised", 1, 0.9)],
+)
+def test_leines_cycle_along_the_speed_of_its_belt(eps, key, i, fastest):
     """Without a clock: the period is an unknown. What sticks forgets everything."""
     block = System(U=("-z1 - c/(1 + 3*abs(x))", "-s"), W=("x + v",), parameters={"v": 0.2})
-    span = (0.15, 0.9) if eps else (0.18, 0.7)
-    found = response_curve(block, (-0.3, 0.0, 0.9), 11.0, "v", span, psi.constant(), eps)
+    found = response_curve(block, (-0.3, 0.0, 0.9), 11.0, "v", (0.15, fastest), psi.constant(), eps)
     assert found.ends == ("span", "span")
     assert float(found.period[found.values == 0.2][0]) == pytest.approx(
         reference.catalogue[key].values[i].value, abs=1e-8
@@ -176,8 +178,7 @@ def test_leines_cycle_along_the_speed_of_its_belt(eps, key, i):
     assert found.stable.all()
     if eps == 0.0:
         assert not found.multipliers.any()
-        (passes,) = found.special
-        assert recognise(passes.sentence)[0][0] == "passages change"
+        assert [recognise(one.sentence)[0][0] for one in found.special] == ["passages change"] * (fastest > 0.7)
 
 
 def test_what_is_refused():
