@@ -90,8 +90,8 @@ def names_a_file(config: pytest.Config) -> bool:
 
 
 def processes(config: pytest.Config) -> int:
-    """Return the number of processes: one a processor for folders, two more for all tests (browsers wait)."""
+    """Return the number of processes: one a processor for folders, one more for all tests (browsers wait)."""
     alone = config.getoption("usepdb") or config.getoption("capture") == "no" or config.option.collectonly
     if names_a_file(config) or alone or "PYTEST_XDIST_WORKER" in os.environ:
         return 0
-    return len(os.sched_getaffinity(0)) + 2 * (not config.option.markexpr and () in named(config))
+    return len(os.sched_getaffinity(0)) + (not config.option.markexpr and () in named(config))

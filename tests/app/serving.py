@@ -30,9 +30,9 @@ class Address(str):
 @contextmanager
 def serving(
     *options, command=("-m", "codim2_app.server.cli"), environment=os.environ, user=None, log=None,
-    python=sys.executable,
+    python=sys.executable, warm=True,
 ):  # fmt: skip
-    """Yield the address of a warm server on a free port; what it logs goes to a file, if one is given."""
+    """Yield the address of a server on a free port, warm or just listening; what it logs goes to a file, if given."""
     whole = [python, *command, "serve", "--port", "0", *options]
     with_output = {**environment, "PYTHONUNBUFFERED": "1"}
     with_output.pop("CODIM2_PYODIDE", None)  # of tests: a server that is to have it is told by its flag
@@ -46,7 +46,7 @@ def serving(
         shown = heard[-1].split("http://")[1].split()[0].rstrip("/")  # with its prefix
         address = Address("http://" + shown.split("/")[0])
         address.pid = process.pid
-        assert wait_until(lambda: is_ready(shown)), "the server is not ready"
+        assert not warm or wait_until(lambda: is_ready(shown)), "the server is not ready"
         yield address
     finally:
         process.terminate()

@@ -24,10 +24,7 @@ PAGE = PICTURES / "benchmarks.md"
 START, END = "<!-- benchmarks -->", "<!-- /benchmarks -->"
 # bench_<name>: `measure` with `text` and `plots` where there is something to draw, else `report` alone.
 DRAWN = ("trajectories", "roots", "orbits")
-ON_PAGE = (
-    "trajectories", "scene", "general", "motions", "cycles", "frames", "load", "devices", "phones", "browser",
-    "page",
-)  # fmt: skip
+ON_PAGE = ("trajectories", "scene", "general", "motions", "cycles", "frames", "load", "devices", "phones")
 TABLES = (*ON_PAGE[1:], "budgets", "rest")
 # Titles of the plots of the second picture, by their beginnings.
 OTHERS = ("limit directions: wrong", "period, n = 3", "separatrices")

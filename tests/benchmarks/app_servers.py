@@ -84,19 +84,7 @@ def queued(thread: str = "/proc/thread-self/schedstat") -> float:
         return 1e-9 * int(statistics.read().split()[1])
 
 
-def panel(port: int) -> None:
-    """Serve a page of Panel's with an empty Bokeh figure."""
-    import panel as pn
-    from bokeh.plotting import figure
-
-    server = pn.io.server.get_server({"/": lambda: pn.pane.Bokeh(figure())}, port=port, start=False)
-    server.start()
-    server.io_loop.start()
-
-
 if __name__ == "__main__":
     kind, port, *more = sys.argv[1:]
-    kinds: dict[str, Callable[..., None]] = {
-        "explorer": explorer, "forgetful": forgetful, "panel": panel, "jumping": jumping,
-    }  # fmt: skip
+    kinds: dict[str, Callable[..., None]] = {"explorer": explorer, "forgetful": forgetful, "jumping": jumping}
     kinds[kind](int(port), *more)

@@ -20,8 +20,8 @@ from playwright.sync_api import Browser
 
 from .app_load import MANY, at_rest, cpu, family, serving, value
 from .app_servers import queued
-from .bench_browser import DRAG, launched
 from .device_visits import Crowd, arrive, load_engine, open_page
+from .dragging import DRAG, launched
 from .wire import Wire
 
 VISITORS, RATE = 1000, 20.0  # a second

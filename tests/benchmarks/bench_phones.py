@@ -23,7 +23,7 @@ from playwright.sync_api import Browser
 
 from ..app.serving import files_of, serving
 from .app_load import family
-from .bench_browser import DRAG, launched
+from .dragging import DRAG, launched
 
 RATES = (1, 4, 6)
 SLICE = 0.002  # seconds for which a slowed process runs at a time

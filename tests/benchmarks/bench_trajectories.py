@@ -2,7 +2,7 @@
 
 Run ``python -m tests.benchmarks trajectories [--quick]``. All run on one thread, on the same
 formulas and seeds, in turns; the error is the largest over the 64 ends, against 30 digits or an exact solution
-(`references`). Times of early ends (our `capture`) and of drawing are left out. numbalsoda needs a Fortran compiler to
+(`problems`). Times of early ends (our `capture`) and of drawing are left out. numbalsoda needs a Fortran compiler to
 install, diffrax brings JAX; what is not installed is named and skipped.
 """
 

@@ -4,8 +4,6 @@ import pytest
 from codim2_app.picture.state.controls import NUMBERS
 from codim2_app.picture.state.portraits import portraits
 
-from tests.app.serving import serving
-
 ELSEWHERE = {"n", "z2", "z3", "z4", "log_eps", "t_end"}  # of Hill's Ψ, of other systems, of the panel "Motion"
 SLIDERS = [name for name in NUMBERS if name not in ELSEWHERE]
 
@@ -15,19 +13,6 @@ def test_page_asks_nobody_else_and_says_nothing(explorer):
     hosts = {urlparse(url).netloc for url in explorer.requests if not url.startswith(("data:", "blob:"))}
     assert hosts == {urlparse(explorer.address).netloc}
     assert explorer.complaints == []
-
-
-@pytest.mark.slow
-def test_pages_of_two_processes_ask_nobody_else(open_page):
-    page = open_page()
-    with serving("--processes", "2") as page.address:
-        for _ in range(4):
-            page.open()
-            hosts = {urlparse(url).netloc for url in page.requests if not url.startswith(("data:", "blob:"))}
-            assert hosts == {urlparse(page.address).netloc}
-            assert page.complaints == []
-            page.type("a", "-1.8")
-            assert page.name() == "CM4"
 
 
 def test_first_picture_comes_with_the_page(open_page):

@@ -145,24 +145,46 @@ RANDOM = [
 ]
 
 
-def test_the_puck_never_contradicts_the_headline(open_page):
-    explorer = open_page().open("?v=1")
-    for setting in RANDOM:
-        names = ("a", "b", "d", "f1", "f2", "z", "k1")
-        query = "&".join(f"{name}={value}" for name, value in zip(names, setting, strict=True))
-        explorer.open(f"?v=1&{query}").painted()
-        puck, told = explorer.find(".state").text_content(), explorer.find(".headline strong").text_content()
-        share = explorer.ask("Math.hypot(...(picture.state.header.critical.e[0] ?? [9]))")
-        arrows = explorer.find(".puck .arrow").evaluate_all("(all) => all.map((one) => one.classList[1])")
-        assert told in puck
-        assert ("active contact" in puck) == (setting[0] > 0 or setting[2] > 0)
-        if told == "sticks" and "active" not in puck:
-            assert share < 1
-            assert puck == f"sticks, {round(100 * share)} % of friction in use"
-            assert "slip" not in arrows
-        if told == "slips":
-            assert "slip" in arrows
-            assert "in use" not in puck
+#: Moves the puck; returns what its words and the headline's are on the way. Frames come as fast as they are drawn.
+MOVED = """async (root, place) => {
+    const read = (name) => root.querySelector(name).textContent, said = new Set()
+    const own = window.requestAnimationFrame
+    let now = 0
+    window.requestAnimationFrame = (call) => setTimeout(() => call(now += 60), 0)
+    const frame = () => said.add(`${read(".state").split(" ·")[0]} | ${read(".headline strong")}`)
+    await root.explorer.bench.run(place, {frame})
+    window.requestAnimationFrame = own
+    return [...said] }"""
+
+
+@pytest.mark.parametrize("i", range(len(RANDOM)))
+def test_the_puck_never_contradicts_the_headline(open_page, i):
+    setting, place = RANDOM[i], [(1.3, 0.9), (-1.2, 1.1), (0.4, -1.5)][i % 3]
+    names = ("a", "b", "d", "f1", "f2", "z", "k1")
+    query = "&".join(f"{name}={value}" for name, value in zip(names, setting, strict=True))
+    explorer = open_page().open(f"?v=1&{query}").painted()
+    puck, told = explorer.find(".state").text_content(), explorer.find(".headline strong").text_content()
+    share = explorer.ask("Math.hypot(...(picture.state.header.critical.e[0] ?? [9]))")
+    arrows = explorer.find(".puck .arrow").evaluate_all("(all) => all.map((one) => one.classList[1])")
+    assert told in puck
+    assert ("active contact" in puck) == (setting[0] > 0 or setting[2] > 0)
+    if told == "sticks" and "active" not in puck:
+        assert share < 1
+        assert puck == f"sticks, {round(100 * share)} % of friction in use"
+        assert "slip" not in arrows
+    if told == "slips":
+        assert "slip" in arrows
+        assert "in use" not in puck
+    said = explorer.find(".codim2").evaluate(MOVED, list(place))
+    assert said
+    for one in said:
+        puck, headline = one.split(" | ")
+        if puck == "slipping":
+            assert headline.startswith("slips"), one
+        if headline == "slips":
+            assert puck in ("slipping", "at rest for an instant", "slips"), one
+        if headline.startswith("sticks") and "luck" not in headline:
+            assert (puck == "still slipping") == ("once slip stops" in headline), one
     assert explorer.complaints == []
 
 
@@ -192,33 +214,6 @@ def test_the_push_and_c_are_linked_both_ways_and_a_launched_orbit_is_slipped_alo
     assert explorer.ask("picture.place[1]") == pytest.approx(1.1, abs=0.3)
     explorer.until("root.querySelector('.state').textContent.startsWith('sticks')")
     assert explorer.find(".headline strong").text_content() == "sticks"
-
-
-def test_the_headline_and_a_puck_that_moves_agree_in_words(open_page):
-    explorer = open_page().open("?v=1")
-    read = """async (root, place) => { // frames come as fast as they are drawn
-        const read = (name) => root.querySelector(name).textContent, said = new Set()
-        const own = window.requestAnimationFrame
-        let now = 0
-        window.requestAnimationFrame = (call) => setTimeout(() => call(now += 60), 0)
-        const frame = () => said.add(`${read(".state").split(" ·")[0]} | ${read(".headline strong")}`)
-        await root.explorer.bench.run(place, {frame})
-        window.requestAnimationFrame = own
-        return [...said] }"""
-    for setting, place in zip(RANDOM, [(1.3, 0.9), (-1.2, 1.1), (0.4, -1.5)] * 3, strict=True):
-        names = ("a", "b", "d", "f1", "f2", "z", "k1")
-        query = "&".join(f"{name}={value}" for name, value in zip(names, setting, strict=True))
-        explorer.open(f"?v=1&{query}")
-        said = explorer.find(".codim2").evaluate(read, list(place))
-        assert said
-        for one in said:
-            puck, headline = one.split(" | ")
-            if puck == "slipping":
-                assert headline.startswith("slips"), one
-            if headline == "slips":
-                assert puck in ("slipping", "at rest for an instant", "slips"), one
-            if headline.startswith("sticks") and "luck" not in headline:
-                assert (puck == "still slipping") == ("once slip stops" in headline), one
 
 
 @pytest.mark.parametrize(("size", "longer"), [((1440, 900), False), ((1920, 1080), False), ((1024, 768), True)])
@@ -281,7 +276,7 @@ def test_nothing_moves_while_a_slider_does(open_page):
         return [(box["x"], box["y"]) for box in (explorer.find(name).bounding_box() for name in places)]
 
     before = tops()
-    for name, values in {"a": (-4, -1, 0, 1, 3), "f1": (-2, 0, 1, 3), "b": (0.2, 1, 3)}.items():
+    for name, values in {"a": (0, 3), "f1": (-2, 3), "b": (1,)}.items():
         for value in values:
             explorer.type(name, str(value))
             assert tops() == before, (name, value)

@@ -169,7 +169,7 @@ page.ToRoom.get, page.ToDocs.get = leave, leave_later
 from codim2_app.server.cli import main
 sys.exit(main(sys.argv[1:]))
 """
-    with serving(command=("-c", code)) as address:
+    with serving(command=("-c", code), warm=False) as address:
         for path, status in (("/room?a=1", 500), ("/room?a=2", 500), ("/docs", 200), ("/room?a=1", 500)):
             assert asked(address.port, path)[0] == status
         assert asked(address.port, "/health")[0] == 200
@@ -200,7 +200,7 @@ sys.exit(main(sys.argv[1:]))
         await wire.close()
         await other.close()
 
-    with serving(command=("-c", code)) as address:
+    with serving(command=("-c", code), warm=False) as address:
         talk(visits(address.port))
         assert asked(address.port, "/health")[0] == 200
 

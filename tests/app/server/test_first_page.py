@@ -155,7 +155,7 @@ def test_a_page_its_line_and_the_health_of_its_server_are_of_one_edition(server)
 @pytest.fixture
 def full():
     """A server of two places."""
-    with serving("--sessions", "2") as address:
+    with serving("--sessions", "2", warm=False) as address:
         yield address
 
 
@@ -188,7 +188,7 @@ def test_hashes_are_of_scripts_that_run():
 
 
 def test_below_a_prefix_page_scripts_and_websocket_are_there():
-    with serving("--prefix", "/explorer") as address:
+    with serving("--prefix", "/explorer", warm=False) as address:
         page, _ = opened(f"{address}/explorer/?a=-1")
         files = re.findall(r'src="([^"]+)"', page)
         assert files

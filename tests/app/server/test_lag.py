@@ -13,7 +13,8 @@ from tests.work import wait_until
 
 BLOCKED = """import sys, time
 from codim2_app.server import page
-page.LATE_SECONDS, page.ToRoom.get = 2.0, lambda self: time.sleep(2.5)
+from codim2_app.server.process import lag
+lag.MEMORY_SECONDS, page.LATE_SECONDS, page.ToRoom.get = 2.0, 1.0, lambda self: time.sleep(1.5)
 from codim2_app.server.cli import main
 sys.exit(main(sys.argv[1:]))
 """
@@ -41,7 +42,7 @@ def test_the_worst_of_the_last_probes_counts_with_the_one_that_is_due(monkeypatc
 
 
 def test_a_loop_that_is_held_is_seen_in_the_metrics_and_makes_the_server_ill():
-    with serving(command=("-c", BLOCKED)) as address:
+    with serving(command=("-c", BLOCKED), warm=False) as address:
         healthy = lambda: status(address)[0] == 200
         assert wait_until(healthy)
         before = slow(address)

@@ -10,7 +10,7 @@ from tornado.websocket import websocket_connect
 
 from tests.work import PATIENCE, talk
 
-PROCESSES, PAGES = 3, 9
+PROCESSES, PAGES = 2, 6
 #: A busy machine may keep the smallest process from its next page for long: the others wait.
 CODE = """import sys
 from codim2_app.server.cli import main

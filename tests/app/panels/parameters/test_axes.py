@@ -84,8 +84,8 @@ def test_numbers_alone_have_no_diagram_and_open_on_what_they_have():
 
 
 RANGES = {
-    "across an atlas": ({"across": "a", "up": "b"}, {"a": [-3.0, -1.0], "b": [0.0, 0.5]}),
     "the plane of f": ({}, {"f1": [-1.0, 0.0]}),
+    "across an atlas": ({"across": "a", "up": "b"}, {"a": [-3.0, -1.0], "b": [0.0, 0.5]}),
     "outside of its range": ({"across": "a", "up": "b"}, {"a": [0.0, 1.0]}),
 }
 

@@ -143,7 +143,7 @@ def families(draw):
 BEYOND = ELinear(1.3984375, -2.2449096063371905, -1.5, (-0.69921875, 1.1224548031685952))
 
 
-@settings(max_examples=12, deadline=None, derandomize=True)
+@settings(max_examples=6, deadline=None, derandomize=True)
 @example((BEYOND, psi.constant(), "f2", 0.75))
 @given(families())
 def test_no_cycle_is_missing(family):
@@ -164,19 +164,19 @@ def test_no_cycle_is_missing(family):
             assert span[0] - 1e-9 <= min(one, two) <= max(one, two) <= span[1] + 1e-9
 
 
+@pytest.mark.parametrize("span", [(-100.0, -70.0), (-200.0, 200.0), (-1e4, 1e4)])
 @pytest.mark.parametrize(("name", "middle"), [("f1", -86.0), ("f2", -93.0)])
-def test_branches_on_a_narrow_part_of_the_span_are_those_of_the_part(name, middle):
+def test_branches_on_a_narrow_part_of_the_span_are_those_of_the_part(name, middle, span):
     """The slider's span of Case III: C is on the hemisphere on a part of it that falls between two values."""
     part = continue_cycles(CASE_III, psi.hill(3), name, (middle - 2.0, middle + 2.0))
     there = limit_cycles(CASE_III, psi.hill(3))
-    for span in ((-200.0, 200.0), (-100.0, -70.0), (-1e4, 1e4)):
-        whole = continue_cycles(CASE_III, psi.hill(3), name, span)
-        assert whole.span == span
-        assert [b for b in whole if b.value.min() < middle < b.value.max()]
-        assert whole.count(middle) == len(there)
-        assert [kinds(b) for b in whole] == [kinds(b) for b in part]
-        for one, other in zip(whole, part, strict=True):
-            assert [p.value for p in one.special] == pytest.approx([p.value for p in other.special], abs=1e-6)
+    whole = continue_cycles(CASE_III, psi.hill(3), name, span)
+    assert whole.span == span
+    assert [b for b in whole if b.value.min() < middle < b.value.max()]
+    assert whole.count(middle) == len(there)
+    assert [kinds(b) for b in whole] == [kinds(b) for b in part]
+    for one, other in zip(whole, part, strict=True):
+        assert [p.value for p in one.special] == pytest.approx([p.value for p in other.special], abs=1e-6)
 
 
 @pytest.mark.parametrize("span", [(-1.7, -0.3), (-1.05, -1.04), (-1.044955, -1.044945)])

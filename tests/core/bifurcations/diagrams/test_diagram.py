@@ -117,7 +117,7 @@ def test_persistently_degenerate_systems_have_their_branches() -> None:
 coefficients = st.one_of(st.floats(-2, 2), st.sampled_from([-1.0, -0.5, 0.0, 0.5, 1.0]))
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=8, deadline=None)
 @given(
     st.tuples(*[coefficients] * 5),
     st.sampled_from(["a", "b", "d", "f1", "f2", "z1"]),

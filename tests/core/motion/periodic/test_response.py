@@ -60,8 +60,8 @@ def test_a_motion_on_a_hilltop_to_where_a_period_multiplies_by_1e11():
 def test_den_hartogs_diagram_and_where_it_begins_to_stick():
     """It does not stop while the force at its turn, w^2 A, is above friction; it is followed on through the stick."""
     exact = lambda w: DenHartog(0.5, 1.0, w)
-    start = (0.0, 0.0, exact(0.8).amplitude, 0.3)
-    found = response_curve(LINE.evolve(mu=0.5, w=0.8), start, of_w, "w", (0.5, 0.9))
+    start = (0.0, 0.0, exact(0.62).amplitude, 0.3)
+    found = response_curve(LINE.evolve(mu=0.5, w=0.62), start, of_w, "w", (0.55, 0.65))
     assert found.ends == ("span", "span")
     (stick,) = found.special
     onset = brentq(lambda w: w * w * exact(w).amplitude - 0.5, 0.55, 0.7, xtol=1e-14)
@@ -108,8 +108,11 @@ def test_folds_of_a_bent_resonance(bent):
 
 def test_a_fold_is_one_at_a_loose_tolerance_too():
     """Near it values of the parameter differ by less than their error."""
-    found = response_curve(DUFFING, (0.0, 0.0, 2.0, 0.3), of_w, "w", (1.59, 2.6), rtol=1e-6)
-    assert [one.kind for one in found.special] == ["fold"]
+    found = response_curve(DUFFING.evolve(w=2.35), (0.0, 0.0, 3.0, 0.3), of_w, "w", (2.3, 2.6), rtol=1e-6)
+    (fold,) = found.special
+    assert fold.kind == "fold"
+    assert [found.crossings(fold.value + by) for by in (-0.02, 0.02)] == [2, 0]
+    assert set(found.stable) == {True, False}
 
 
 def test_folds_come_from_those_of_small_eps(bent):
@@ -158,11 +161,14 @@ def test_real_pairs_are_no_torus_and_a_branch_is_no_fold():
     assert recognise(through.sentence)[0][0] == "branches off"
 
 
-@pytest.mark.parametrize(("eps", "key", "i"), [(1e-2, "leine-block-regularised", 1), (0.0, "leine-block", 2)])
-def test_leines_cycle_along_the_speed_of_its_belt(eps, key, i):
+@pytest.mark.parametrize(
+    ("eps", "key", "i", "fastest"),
+    [(0.0, "leine-block", 2, 0.4), (0.0, "leine-block", 2, 0.9), (1e-2, "leine-block-regularised", 1, 0.9)],
+)
+def test_leines_cycle_along_the_speed_of_its_belt(eps, key, i, fastest):
     """Without a clock: the period is an unknown. What sticks forgets everything."""
     block = System(U=("-z1 - c/(1 + 3*abs(x))", "-s"), W=("x + v",), parameters={"v": 0.2})
-    found = response_curve(block, (-0.3, 0.0, 0.9), 11.0, "v", (0.15, 0.9), psi.constant(), eps)
+    found = response_curve(block, (-0.3, 0.0, 0.9), 11.0, "v", (0.15, fastest), psi.constant(), eps)
     assert found.ends == ("span", "span")
     assert float(found.period[found.values == 0.2][0]) == pytest.approx(
         reference.catalogue[key].values[i].value, abs=1e-8
@@ -172,8 +178,7 @@ def test_leines_cycle_along_the_speed_of_its_belt(eps, key, i):
     assert found.stable.all()
     if eps == 0.0:
         assert not found.multipliers.any()
-        (passes,) = found.special
-        assert recognise(passes.sentence)[0][0] == "passages change"
+        assert [recognise(one.sentence)[0][0] for one in found.special] == ["passages change"] * (fastest > 0.7)
 
 
 def test_what_is_refused():

@@ -21,8 +21,8 @@ def follow(k):
 @pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="no /proc here")
 def test_new_texts_hold_no_memory():
     resident = []
-    for first, end in ((0, 60), (60, 120), (120, 180)):
+    for first, end in ((0, 30), (30, 60), (60, 90)):
         for k in range(first, end):
             follow(k)
         resident.append(int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE"))
-    assert resident[2] - resident[1] < 5e6  # 14e6 as it was
+    assert resident[2] - resident[1] < 3e6  # 7e6 as it was
