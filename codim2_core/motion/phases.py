@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..numerics.curves.arclength import distance
+from ..numerics.arclength import distance
 from ..numerics.dense import Dense
 from ..portrait.cycles.limit_cycles import limit_cycles
 from ..results.arrays import Array

@@ -17,7 +17,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..numerics.curves.arclength import distance
+from ..numerics.arclength import distance
 from ..results.arrays import Array
 from ..results.words import say
 from ..systems.frozen import FrozenSystem

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..numerics.curves.arclength import distance
+from ..numerics.arclength import distance
 from ..results.arrays import Array
 from ..results.words import say
 from ..systems.kinds import AnySystem, takes_names

@@ -14,7 +14,7 @@ from itertools import count
 import numpy as np
 from numpy.typing import NDArray
 
-from ...numerics.curves.arclength import distance
+from ...numerics.arclength import distance
 from ...results.arrays import Array
 from ..diagrams.classes import classes_over
 from ..families.family import SystemFamily

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...numerics.curves.arclength import newton, zero_between
+from ...numerics.arclength import newton, zero_between
 from ...results.arrays import Array
 from ...results.special_kinds import HOPF, NODE_FOCUS, SPECIAL_KINDS
 from ...results.words import say

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...numerics.curves.arclength import TracedLine, distance, feet, point_across, zero_between
+from ...numerics.arclength import TracedLine, distance, feet, point_across, zero_between
 from ...results.arrays import Array
 from ...results.special_kinds import DETERMINANT, HOPF, SPECIAL_KINDS, SpecialKind
 from ..families import conditions

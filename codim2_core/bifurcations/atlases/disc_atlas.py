@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...numerics.curves.arclength import distance
+from ...numerics.arclength import distance
 from ...results.arrays import Array, read_only
 from ..families.disc import borders
 from ..families.family import SystemFamily

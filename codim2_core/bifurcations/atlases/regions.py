@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from ...numerics.curves.arclength import distance, feet
+from ...numerics.arclength import distance, feet
 from ...results.arrays import Array, read_only
 from ..diagrams.classes import Classes, classes_over
 from ..families.family import SystemFamily

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...numerics.curves.arclength import Condition
+from ...numerics.arclength import Condition
 from ...numerics.sign_changes import root_between
 from ...portrait.layer_problem.critical import critical_sets
 from ...results.arrays import Array

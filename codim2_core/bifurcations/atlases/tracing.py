@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...numerics.curves.arclength import (
+from ...numerics.arclength import (
     Condition,
     CurveEdge,
     StepBounds,

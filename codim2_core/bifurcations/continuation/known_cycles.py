@@ -14,7 +14,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ...numerics.curves.arclength import distance
+from ...numerics.arclength import distance
 from ...portrait.cycles.limit_cycles import LimitCycle, surrounds
 from ...results.arrays import Array
 from .branch_ends import BranchEnd

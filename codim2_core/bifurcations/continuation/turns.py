@@ -21,7 +21,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ...numerics.curves.arclength import newton
+from ...numerics.arclength import newton
 from ...portrait.cycles.limit_cycles import excluding_theorem
 from ...portrait.cycles.periodic_orbit import STEP_NODES, gauss, path
 from ...portrait.cycles.ray_section import HemispherePoint, Ray, room

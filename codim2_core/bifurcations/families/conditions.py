@@ -22,7 +22,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ...numerics.curves.arclength import Condition
+from ...numerics.arclength import Condition
 from ...results.arrays import Array
 from ...results.special_kinds import SpecialKind
 from .family import AXES, SystemFamily

@@ -16,7 +16,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...numerics.curves.arclength import CurveEdge, StepBounds, tangent, trace_one_way, zero_between
+from ...numerics.arclength import CurveEdge, StepBounds, tangent, trace_one_way, zero_between
 from ...portrait.layer_problem.vary import check_name
 from ...results.arrays import Array, Complex
 from ...systems.arguments import number as positive_number

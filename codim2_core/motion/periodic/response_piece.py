@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...numerics.curves.arclength import newton
+from ...numerics.arclength import newton
 from ...portrait.layer_problem.vary import vary
 from ...results.arrays import Array
 from ...systems.psi.constructors import constant

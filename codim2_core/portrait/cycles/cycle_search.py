@@ -25,7 +25,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from ...numerics.curves.arclength import distance
+from ...numerics.arclength import distance
 from ...numerics.sign_changes import root_through
 from ...results.arrays import Array
 from ...results.words import say

@@ -13,7 +13,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ....numerics.curves.arclength import StepBounds, feet, newton, square_edges, trace_curve, zero_between
+from ....numerics.arclength import StepBounds, feet, newton, square_edges, trace_curve, zero_between
 from ....numerics.sign_changes import root_between
 from ....portrait.layer_problem.problem import LayerProblem
 from ....results.arrays import Array, read_only

@@ -25,7 +25,7 @@ from typing import Any
 
 import numpy as np
 
-from ....numerics.curves.arclength import newton
+from ....numerics.arclength import newton
 from ....portrait.cycles.heteroclinic_cycle import loop_gap
 from ....portrait.cycles.ray_section import HeteroclinicArc, heteroclinic_arcs
 from ....portrait.layer_problem.critical import CriticalSet, set_at

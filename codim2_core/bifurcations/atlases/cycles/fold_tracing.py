@@ -17,7 +17,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ....numerics.curves.arclength import (
+from ....numerics.arclength import (
     CurveEdge,
     StepBounds,
     newton,

@@ -6,7 +6,7 @@ import pytest
 import codim2_core as c2
 from codim2_core.bifurcations.atlases.regions import inside_polygons
 from codim2_core.bifurcations.diagrams.classes import classes_over
-from codim2_core.numerics.curves.arclength import distance
+from codim2_core.numerics.arclength import distance
 
 ONE = c2.psi.constant()
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from codim2_core.numerics.curves.arclength import CurveEdge, StepBounds, tangent, trace_curve
+from codim2_core.numerics.arclength import CurveEdge, StepBounds, tangent, trace_curve
 
 STEPS = StepBounds(0.1, 0.2, 500)
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...results.arrays import Array
-from ..sign_changes import root_between
+from ..results.arrays import Array
+from .sign_changes import root_between
 
 Condition = Callable[[Array], tuple[Array, Array]]  # values (k,) and their derivatives (k, n)
 
