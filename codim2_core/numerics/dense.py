@@ -113,10 +113,7 @@ class DenseMotion(Pictured):
         return column_rows(self._columns(self.times, self.states))
 
     def to_frame(self, t: ArrayLike | None = None) -> Any:
-        """Return the motion as a pandas DataFrame: a row a time, with the state and the phase.
-
-        Raises ValueError: A time is outside, t is no list of times, or pandas is not installed. Shapes: t (k,).
-        """
+        """Return the motion as a pandas DataFrame: a row a time, with the state and the phase."""
         when = self.times if t is None else np.asarray(t, float)
         if when.ndim != 1:
             raise ValueError(f"t has shape {when.shape}; give a list of times.")

@@ -33,11 +33,7 @@ MIN_BEND = 1e-6  # a part of the square; what turns less than this is straight
 
 
 def undefined_borders(family: SystemFamily) -> list[Array]:
-    """Borders, as lines (m, 2) of the unit square; none where U has a value at all places of a net.
-
-    The cells of a finer net are cut into triangles: where U has a value at one corner and none at another, a border
-    crosses two of its edges.
-    """
+    """Return borders (m, 2) of where U has a value: they cross triangles of a net of which one corner has none."""
     if _is_defined(family, _net(FIRST_NET_CELLS)).all():
         return []
     places = _net(BORDER_NET_CELLS)
@@ -166,10 +162,7 @@ def _bisect(class_at: ClassAt, own: int, inside: Array, outside: Array) -> Array
 
 
 def _follow_border(class_at: ClassAt, start: Array, out: Array, sense: float) -> list[Array]:
-    """Return places along a border, after one, to where it ends or leaves the square.
-
-    The classes on its two sides may change, where other curves cross it.
-    """
+    """Return places along a border, to where it ends or leaves the square; classes on its two sides may change."""
     points: list[Array] = []
     here, step = start, BORDER_STEP
     while len(points) < MAX_BORDER_STEPS and step >= MIN_BORDER_STEP:

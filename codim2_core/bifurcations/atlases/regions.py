@@ -272,10 +272,7 @@ MIN_HALF_WIDTH = 2e-4  # of the ranges: what is nowhere wider than twice this is
 def regions_of(
     family: SystemFamily, curves: Sequence[Array], points: Sequence[tuple[float, float]]
 ) -> tuple[tuple[AtlasRegion, ...], SamplingReport]:
-    """All regions, by falling area, and what the portrait is where they were looked at.
-
-    Shapes: curves (m, 2).
-    """
+    """All regions, by falling area, and what the portrait is where they were looked at; curves (m, 2)."""
     lines = [family.units(line) for line in curves]
     marks = family.units(np.reshape(points, (-1, 2)))
     net = net_of([_insert_marks(line, marks) for line in lines])
@@ -307,10 +304,7 @@ def regions_of(
 
 
 def faces_between(lines: Sequence[Array], marks: Array) -> list[tuple[Face, Array, float]]:
-    """Return the faces between lines of the unit square that can be seen, a place in each, and how far its border is.
-
-    Shapes: lines (m, 2), marks (k, 2), that lie on some of them.
-    """
+    """Return the faces between lines (m, 2) with marks (k, 2), a place in each, and how far its border is."""
     found = [(face, *middle(face)) for face in net_of([_insert_marks(line, marks) for line in lines]).faces()]
     return [one for one in found if one[2] > MIN_HALF_WIDTH]
 

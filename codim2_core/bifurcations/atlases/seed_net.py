@@ -115,10 +115,7 @@ AFFINE_CELL = np.array([2.0 / INTERIOR_CELLS, 2.0 / INTERIOR_CELLS, 1.0 / AFFINE
 
 
 def on_equator(family: SystemFamily, lines: Sequence[DegenerateLine] = ()) -> tuple[Array, Array, Array]:
-    """Cells in which Theta and Theta' come to zero, and those in which U does: centres (k, 3) of each.
-
-    And `stability_steps`.
-    """
+    """Cells in which Theta and Theta' come to zero, and those in which U does, (k, 3) each; and `stability_steps`."""
     theta = (np.arange(EQUATOR_CELLS + 1) + NET_OFFSET) * EQUATOR_CELL[0]
     side = np.linspace(0.0, 1.0, PARAMETER_CELLS + 1)
     c, s = np.cos(theta)[:, None, None], np.sin(theta)[:, None, None]
@@ -199,10 +196,7 @@ def interior_cells(family: SystemFamily, lines: Sequence[DegenerateLine] = ()) -
 
 
 def _within_affine(family: SystemFamily, lines: Sequence[DegenerateLine]) -> dict[str, Array]:
-    """Cells of the plane alone, in which the functions of rows of the one critical set change their signs.
-
-    A cell through which that set goes far is halved.
-    """
+    """Cells of the plane in which functions of rows of the one critical set change signs; halved where it goes far."""
     side = (np.arange(AFFINE_CELLS) + 0.5) / AFFINE_CELLS
     cells = np.stack(np.meshgrid(side, side, indexing="ij"), axis=-1).reshape(-1, 2)
     found: dict[str, list[Array]] = {kind.kind: [np.zeros((0, 4))] for kind in SPECIAL_KINDS}
@@ -338,10 +332,7 @@ NO_SEEDS = CurveSeeds((), ())
 
 
 def seeds_near(family: SystemFamily, places: Sequence[tuple[float, float]]) -> CurveSeeds:
-    """Return seeds near places (values of the parameters) at which the portrait is not that of the region around.
-
-    Along each axis the place nearest to one of them is looked for at which the class changes.
-    """
+    """Return seeds next to places at which the portrait is not that of the region around: where the class changes."""
     classes = classes_over(family.system, family.psi, family.z, family.names, family.ranges)
 
     def class_at(u: Array) -> int:

@@ -285,11 +285,7 @@ def _margin(problem: LayerProblem) -> float:
 
 
 def margin_of(equator: EquatorEquilibria, critical: Sequence[CriticalSet]) -> float:
-    """Estimate how far a system lies from its nearest border, 0 to 1.
-
-    The least of: the relative change to a multiple zero of Theta, lambda_rho against lambda_theta at each limit
-    direction, det J against the square of J's entries and 1 - |e| at each critical set.
-    """
+    """Estimate how far a system lies from its nearest border, 0 to 1: the least of all relative changes to one."""
     near = [1.0, equator.distance]
     rho, turning = np.abs(equator.lambda_rho), np.abs(equator.lambda_theta)
     if len(rho):

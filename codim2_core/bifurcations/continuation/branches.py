@@ -88,10 +88,7 @@ COMPARED_POINTS = 3  # before the last cycle: with those before these it is comp
 def continue_cycles(
     system: AnySystem, psi: Psi, name: str, span: tuple[float, float], z: ArrayLike, marked: Sequence[MarkedValue]
 ) -> CycleBranches:
-    """Continue the limit cycles of the layer problem (3.26) along one parameter (Section 4.3.3).
-
-    Shapes: z (m,).
-    """
+    """Continue the limit cycles of the layer problem (3.26) along one parameter (Section 4.3.3); z (m,)."""
 
     @lru_cache(maxsize=CACHE_SIZE)
     def problem(value: float) -> LayerProblem:

@@ -160,10 +160,7 @@ class BranchTracer:
     def fold(
         self, xi: float, nu: float, near: ContinuationPoint, nearby: float = DIFFERENCE_STEP
     ) -> ContinuationPoint | None:
-        """Find the point about (xi, nu) where the exponent is zero: Newton's method for a closed turn of exponent 0.
-
-        Its derivatives are taken by differences of `nearby` in xi rate and nu.
-        """
+        """Find the point about (xi, nu) where the exponent is zero, by Newton's method with differences of `nearby`."""
         last = math.inf
         k = min(nearby, MAX_SHIFT_CHANGE / max(abs(near.turn.by_value) * self.width, 1e-300))
         for _ in range(MAX_ROUNDS):

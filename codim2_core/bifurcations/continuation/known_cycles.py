@@ -42,10 +42,7 @@ def line_of(tracer: BranchTracer, turn: ReturnMapPoint) -> Array | None:
 def split_at_homoclinic(
     tracer: BranchTracer, trace: ContinuationPoints, problem: Problems
 ) -> tuple[ContinuationPoints, ContinuationPoints] | None:
-    """Part a trace at the first loop that it has passed; None if it has passed none.
-
-    Both with points close to the loop.
-    """
+    """Part a trace at the first loop that it has passed, with points close to it; None if it has passed none."""
     rounds = [_count_surrounded(tracer, point.turn, problem) for point in trace.points]
     for i in range(1, len(rounds)):
         one, two = rounds[i - 1], rounds[i]

@@ -203,10 +203,7 @@ class _BranchPath:
         return "span" if beyond else None
 
     def _fold(self, i: int) -> ContinuationPoint | None:
-        """Find the point between the i-th one and the one before at which the exponent is zero.
-
-        By bisection alone where the exponent has a kink, as that of a cycle does which grazes a circle where Psi has.
-        """
+        """Find the point between the i-th one and the one before where the exponent is zero; by bisection at a kink."""
         around, k, middle = self.points[max(i - 2, 0) : i + 2], min(i, 2), None
         for halved in range(MAX_HALVINGS):
             here, there = around[k - 1], around[k]

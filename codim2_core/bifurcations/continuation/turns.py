@@ -225,10 +225,7 @@ class FiniteDifference:
 
 @dataclass(frozen=True)
 class TurnOrbit:
-    """A turn, the states along it (k, 3), the derivatives of its shift by each parameter, and what is left.
-
-    left: The exponent from each state to the end: there a change has grown by as much, (k,).
-    """
+    """A turn, the states along it (k, 3), derivatives of its shift by each parameter, and the exponent `left` (k,)."""
 
     turn: ReturnMapPoint
     states: Array

@@ -160,10 +160,7 @@ class Change(NamedTuple):
 
 
 def look_near(states: States, values: Sequence[float]) -> None:
-    """Find the states on both sides of each of some values in order: nearer where another one is near.
-
-    They are farther away where all is degenerate within rounding so near: what lies between is then left out.
-    """
+    """Find the states on both sides of each of some values in order; farther away where all is degenerate so near."""
     low, high = states.span
     stops = [-math.inf, *values, math.inf]
     for before, value, after in zip(stops, stops[1:], stops[2:], strict=False):

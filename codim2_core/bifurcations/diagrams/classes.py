@@ -177,10 +177,7 @@ class Classes:
 def classes_over(
     system: Any, psi: Psi, z: ArrayLike, varying: Sequence[str], spans: Sequence[Sequence[float]]
 ) -> Classes:
-    """Return the classes of a system over some names.
-
-    Raises ValueError: A name cannot be varied, a value is beyond what it may be, or z does not fit. Shapes: z (m,).
-    """
+    """Return the classes of a system over some names."""
     return Classes(system, psi, z, check_varying(system, psi, z, varying, spans))
 
 

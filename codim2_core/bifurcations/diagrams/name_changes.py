@@ -36,10 +36,7 @@ _NEWTON_ROUNDS = 12
 def single_values(
     family: SystemFamily, states: States, found: Sequence[Candidate], named: Sequence[SpecialValue], u: Array
 ) -> list[SpecialValue]:
-    """Name crossings, touches, values with det A = 0 or with all directions, and what parts no names.
-
-    Shapes: u (n,).
-    """
+    """Name crossings, touches, values with det A = 0 or with all directions, and what parts no names; u (n,)."""
     everywhere = _all_directions(family, u)
     out = [_special(family, "all directions", v, (0.0, 0.0), say("nothing turns at f = 0")) for v in everywhere]
     known = [*out, *named]

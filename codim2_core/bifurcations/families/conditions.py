@@ -45,10 +45,7 @@ def singular_matrix(family: SystemFamily) -> Condition:
 
 
 def neutral_equator(family: SystemFamily) -> Condition:
-    """Find where the mean of lambda_rho/|Theta| over the equator is zero, of a closed equator (Theorem 3.1(c)).
-
-    Means over equally spaced angles, with those between until they stand; NaNs where there are limit directions.
-    """
+    """Find where the mean of lambda_rho/|Theta| over a closed equator is zero (Theorem 3.1(c)); else NaN."""
     sums = _affine_sums(family) if family.affine else _sums(family)
     enough = [MIN_ANGLES]
 

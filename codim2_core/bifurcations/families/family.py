@@ -219,10 +219,7 @@ class SystemFamily:
         return system.at(z)
 
     def at(self, u: Array) -> tuple[Any, Psi, tuple[float, ...]]:
-        """Return system, Psi and z at a place of the unit square.
-
-        Raises ValueError: A value is not allowed.
-        """
+        """Return system, Psi and z at a place of the unit square."""
         of = self.system, self.psi, self.z
         for name, value in zip(self.names, self.values(u).tolist(), strict=True):
             of = vary(*of, name, value)

@@ -133,10 +133,7 @@ def _pattern(template: str) -> re.Pattern[str]:
 
 
 def recognise(text: str) -> list[tuple[str, dict[str, str]]]:
-    """Return the key and the fields of each sentence of a text, in its order.
-
-    Raises ValueError: Part of the text is no sentence that is listed here.
-    """
+    """Return the key and the fields of each sentence of a text, in its order."""
     found, rest = [], text.strip()
     while rest:
         matches = [(m, key) for key, pattern in _patterns().items() if (m := pattern.match(rest))]

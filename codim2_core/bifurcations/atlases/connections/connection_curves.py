@@ -163,10 +163,7 @@ def straight(family: SystemFamily, curves: Sequence[AtlasCurve]) -> list[Array]:
 
 
 def rings_about_corners(corners: Sequence[Array], curves: Sequence[Array]) -> list[Array]:
-    """Circles about saddle-nodes on the equator, with some places between any two curves that they cross.
-
-    From there curves of heteroclinic cycles begin. Shapes: corners (2,), curves (m, 2), all in the square.
-    """
+    """Circles about saddle-nodes on the equator (2,), from which curves of heteroclinic cycles begin; curves (m, 2)."""
     found = []
     for corner in corners:
         for radius in RING_RADII:
@@ -326,10 +323,7 @@ MAX_CURVES = 24  # curves
 def connection_curves(
     family: SystemFamily, curves: Sequence[AtlasCurve], points: Sequence[AtlasPoint]
 ) -> tuple[list[AtlasCurve], list[AtlasPoint], tuple[str, ...]]:
-    """Find connections, the points of codimension two on them, and kinds of which some may be missing.
-
-    These were seen and not followed, or not looked for where there are too many saddles.
-    """
+    """Find connections, the points of codimension two on them, and kinds of which some may be missing."""
     takens = [family.units(np.array(point.place)) for point in points if point.kind == BOGDANOV_TAKENS]
     found: list[ConnectionCurve] = []
     missed: list[ConnectionSeed] = []

@@ -103,10 +103,7 @@ class Branch:
         return max(found, key=lambda one: float(one.way @ self.way), default=None)
 
     def line(self, scale: float) -> tuple[Array, Array]:
-        """Follow it as a line (m, 2) that can be drawn, with the time from its start (m,) at each point.
-
-        What matters in it is of a size `scale`, in the disc.
-        """
+        """Follow it as a line (m, 2) that can be drawn, of the size `scale`, with the time (m,) at each point."""
         # where an orbit rises from the equator depends on the tolerance: times must have one beginning
         found = _integrate_branches([self], RTOL if self.critical is None else ROUGH_RTOL, scale)
         return found.points[0], np.abs(found.times[0])

@@ -195,10 +195,7 @@ def trace_fold(family: SystemFamily, start: CycleStart, corners: Sequence[Array]
 
 
 def _cusps(rows: Sequence[tuple[EncirclingTurns, Array]]) -> list[tuple[int, Array]]:
-    """Find the cusps on a curve: the point after which each comes, and its place.
-
-    Where one step has passed two of them, it has led back in the plane.
-    """
+    """Find the cusps on a curve: the point after which each comes, and its place; a step may have passed two."""
     bends = np.array([around.bend(v) for around, v in rows])
     sure = np.flatnonzero(np.abs(bends) > MIN_EXPONENT_CHANGE).tolist()
     steps = np.diff([rows[i][1][1:] for i in sure], axis=0)
