@@ -10,11 +10,9 @@ import numpy as np
 
 from ...numerics.sign_changes import root_between
 from ...portrait.layer_problem.equator import equator_equilibria
-from ...systems.examples.ball_in_pool import ball_in_pool
-from ...systems.examples.ball_on_turntable import ball_on_turntable
+from ...systems.examples.bodies import ball_on_turntable, spinning_annulus, spinning_disc
 from ...systems.examples.example import GRAVITY
-from ...systems.examples.spinning_annulus import spinning_annulus
-from ...systems.examples.spinning_disc import spinning_disc
+from ...systems.examples.paper import ball_in_pool
 from ...systems.typed import System
 from .record import ExactValue, ReferenceMotion, closed_form
 from .sliding import follow

@@ -12,9 +12,8 @@ from collections.abc import Sequence
 
 from numpy.typing import ArrayLike
 
+from ...systems.examples.bodies import tilting_block, unit_vector_control
 from ...systems.examples.example import GRAVITY
-from ...systems.examples.tilting_block import tilting_block
-from ...systems.examples.unit_vector_control import unit_vector_control
 from ...systems.kinds import AnySystem
 from ...systems.typed import System
 from ..result import Simulation

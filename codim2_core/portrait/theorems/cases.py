@@ -7,8 +7,7 @@ import math
 import numpy as np
 
 from ...results.words import say
-from ...systems.examples.attracting_repelling import attracting_repelling
-from ...systems.examples.nonunique_sliding import nonunique_sliding
+from ...systems.examples.paper import attracting_repelling, nonunique_sliding
 from ...systems.psi.constructors import comparison_families
 from ...systems.typed import System
 from ..layer_problem.linearisation import Existence

@@ -7,24 +7,22 @@ from __future__ import annotations
 
 import reprlib
 from collections.abc import Callable, Mapping
-from importlib import import_module
+from pathlib import Path
 from types import MappingProxyType
 
 from ..elinear import ELinear
 from ..typed import System
-from .attracting_repelling import attracting_repelling
-from .ball_in_pool import ball_in_pool
-from .ball_on_turntable import ball_on_turntable
-from .cart_on_two_wheels import cart_on_two_wheels
-from .driven_mass import driven_mass
-from .example import GRAVITY, Ball, Example
-from .nonunique_sliding import nonunique_sliding
-from .plate_on_three_feet import plate_on_three_feet
-from .spinning_annulus import spinning_annulus
-from .spinning_disc import spinning_disc
-from .tilting_block import tilting_block
-from .towed_wheel import towed_wheel
-from .unit_vector_control import unit_vector_control
+from .bodies import (
+    ball_on_turntable,
+    driven_mass,
+    spinning_annulus,
+    spinning_disc,
+    tilting_block,
+    unit_vector_control,
+)
+from .example import GRAVITY, Ball, Example, read_examples
+from .mechanisms import cart_on_two_wheels, plate_on_three_feet, towed_wheel
+from .paper import attracting_repelling, ball_in_pool, nonunique_sliding
 
 __all__ = [
     "GRAVITY", "Ball", "Example", "attracting_repelling", "ball_in_pool", "ball_on_turntable", "cart_on_two_wheels",
@@ -45,23 +43,7 @@ def __dir__() -> list[str]:
     return list(__all__)
 
 
-EXAMPLE_NAMES = (
-    "ball_in_pool",
-    "attracting_repelling",
-    "nonunique_sliding",
-    "tilting_block",
-    "unit_vector_control",
-    "ball_on_turntable",
-    "spinning_disc",
-    "spinning_annulus",
-    "towed_wheel",
-    "driven_mass",
-)
-MECHANISM_NAMES = ("cart_on_two_wheels", "plate_on_three_feet")  # with several contacts: an example at each
-LISTED: tuple[Example, ...] = (
-    *(import_module(f".{name}", __package__).EXAMPLE for name in EXAMPLE_NAMES),
-    *(one for name in MECHANISM_NAMES for one in import_module(f".{name}", __package__).EXAMPLES),
-)
+LISTED = read_examples(Path(__file__).with_name("examples.toml"), globals())
 
 _examples: dict[str, Example] = {example.key: example for example in LISTED}
 catalogue: Mapping[str, Example] = MappingProxyType(_examples)  # by key, in the order of menus; grows with `register`

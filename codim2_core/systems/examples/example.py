@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import wraps
 from numbers import Real
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
@@ -127,11 +129,21 @@ class Example:
             )
 
 
-def examples_at_contacts(
-    mechanism: Callable[..., Contacts], titles: Mapping[str, str], title: str, **shared: Any
-) -> tuple[Example, ...]:
-    """Return an example for each contact of a mechanism, in their order."""
-    return tuple(
-        Example(_system_at_contact(mechanism, i, key), f"{title}: {name}", mechanism=mechanism, **shared)
-        for i, (key, name) in enumerate(titles.items())
-    )
+def read_examples(path: Path, functions: Mapping[str, Callable[..., Any]]) -> tuple[Example, ...]:
+    """Read the examples of a TOML file, a table each by the name of its function; of several contacts one at each."""
+    found: list[Example] = []
+    for name, table in tomllib.loads(path.read_text("utf-8")).items():
+        title, contacts, make = table.pop("title"), table.pop("contacts", {}), functions[name]
+        shared = {key: as_tuples(value) for key, value in table.items()}
+        shared["ranges"] = {key: as_tuples(value) for key, value in table["ranges"].items()}
+        shared["ball"] = Ball(**table["ball"]) if "ball" in table else None
+        if not contacts:
+            found.append(Example(make, title, **shared))
+        for i, (key, where) in enumerate(contacts.items()):
+            found.append(Example(_system_at_contact(make, i, key), f"{title}: {where}", mechanism=make, **shared))
+    return tuple(found)
+
+
+def as_tuples(value: Any) -> Any:
+    """Return a value of a TOML file with tuples for its lists, however deep."""
+    return tuple(map(as_tuples, value)) if isinstance(value, list) else value

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from ...results import drawing
 from ...results.paper import cite
@@ -93,17 +92,3 @@ class Preset:
     def psi(self) -> Psi:
         """The regularisation function."""
         return make(self.family, self.parameter)
-
-
-#: ``add(name, parent, **differences)``: list what a parent is, but for what differs, under a name.
-Add = Callable[..., Preset]
-
-
-def collector(found: dict[str, Preset]) -> Add:
-    """Return what adds presets to a list, and hands each on."""
-
-    def add(name: str, parent: Preset, **differences: object) -> Preset:
-        found[name] = replace(parent, name=name, **differences)  # type: ignore[arg-type]
-        return found[name]
-
-    return add

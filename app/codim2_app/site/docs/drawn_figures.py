@@ -12,7 +12,6 @@ import numpy as np
 
 import codim2_core as c2
 from codim2_core.bifurcations.diagrams.eigenvalue_path import LinearisationPath, linearisation_path
-from codim2_core.systems.presets.examples import Z_CRIT
 
 from ...exports.figure import Style, figure
 from ...exports.small.chart import close_svg, line_chart
@@ -23,6 +22,7 @@ from ...panels.solid import stack_of_discs
 from ...picture.draw.vector.parts import Placement, arrows, stroke, words
 
 SIDE = 360.0
+Z_CRIT = c2.presets["ball-critical"].z[0]
 #: Half the length of an arrowhead, in px, and how near to each other words of a drawing are set.
 HEAD, TEXT = 4.5, 14.0
 #: How space is seen, from 25 degrees above and turned by 30: to the right and upwards for each of x, y, z.

@@ -35,7 +35,10 @@ DEPENDENCIES = (
     "jinja2", "latex2mathml", "markdown-it-py", "markupsafe", "mdit-py-plugins", "mdurl", "param", "pyyaml", "segno",
 )  # fmt: skip
 #: Of our packages: what is imported, lessons, and what markup and live files are made of.
-KEPT = ("*.py", "*.md", "words.toml", "phrases.toml", "static/**/*.js", "static/**/*.css", "static/*.html")
+KEPT = (
+    "*.py", "*.md", "words.toml", "phrases.toml", "paper.toml", "presets.toml", "examples.toml", "static/**/*.js",
+    "static/**/*.css", "static/*.html",
+)  # fmt: skip
 LEFT_OUT = ("site/docs/", "site/notebooks/", "site/wasm_kernels/", "server/")  # folders of the app
 #: Folders whose source is read there: right-hand sides with a typed formula are compiled from it.
 READ = ("stepping",)

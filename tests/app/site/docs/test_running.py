@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 from codim2_app.lessons.library import read_lesson
 from codim2_app.site.docs import drawn_figures, running
-from codim2_app.site.docs.drawn_figures import SIDE
+from codim2_app.site.docs.drawn_figures import SIDE, Z_CRIT
 from codim2_app.site.docs.pages import TEXT_FOLDER
 
 import codim2_core as c2
-from codim2_core.systems.presets.examples import Z_CRIT
 
 PAGES = [page for page in sorted(TEXT_FOLDER.glob("*.md")) if "\n```python\n" in page.read_text(encoding="utf-8")]
 

@@ -1,9 +1,10 @@
-"""Ball at the bottom of a pool, Section 5.1: slips, sticks and rolls."""
+"""The paper's three systems, Section 5."""
 
 from __future__ import annotations
 
 from ..elinear import ELinear
-from .example import GRAVITY, Ball, Example, check_physics
+from ..typed import System
+from .example import GRAVITY, check_physics
 
 
 def ball_in_pool(mu: float = 0.2, m: float = 1.0, K: float = 1.0, g: float = GRAVITY) -> ELinear:
@@ -46,16 +47,31 @@ def ball_in_pool(mu: float = 0.2, m: float = 1.0, K: float = 1.0, g: float = GRA
     )
 
 
-EXAMPLE = Example(
-    make=ball_in_pool,
-    title="Ball at the bottom of a pool",
-    label="sec:ballpool",
-    source="N. Cheesman, K. Uldall Kristiansen and S. J. Hogan, Section 5.1",
-    sentence="It sticks and rolls where |z| < 7μmg/(2K); faster, it slips.",
-    ranges={"mu": (0.05, 1.0), "m": (0.2, 3.0), "K": (0.0, 4.0), "g": (1.0, 20.0)},
-    z=(4.0, 0.0),
-    slow=(("z₁", -12.0, 12.0), ("z₂", -12.0, 12.0)),
-    launch=(9.0, 3.0, 9.0, 0.0),
-    t_end=5.0,
-    ball=Ball(),
-)
+def attracting_repelling() -> System:
+    """Attracting and repelling directions, Section 5.2, (5.12): some approaches cross, others slide.
+
+    Examples
+    --------
+    >>> from codim2_core import classify, examples, psi
+    >>> classify(examples.attracting_repelling(), psi.constant(), 0.0).name
+    '2 critical sets, 6 limit directions'
+    """
+    return System(U=("2*c**2 - c - 1/2", "-s"), W=("-z",))
+
+
+def nonunique_sliding() -> System:
+    """Sliding that depends on the direction of approach, Section 5.3, (5.16): two stable critical sets.
+
+    Examples
+    --------
+    At z = 0 two critical sets attract:
+
+    >>> from codim2_core import critical_sets, examples, psi
+    >>> critical_sets(examples.nonunique_sliding(), psi.constant(), 0.0).kinds
+    ('stable node', 'saddle', 'stable node')
+    """
+    return System(
+        U=("-c*(c - chi(z)/2)*(c + chi(z)/2)", "-s/2"),
+        W=("-2*c + 1/4",),
+        definitions={"chi(z)": "(1 + 2*z**2)/(1 + z**2)"},
+    )
