@@ -13,15 +13,6 @@ from ..systems.coefficients import Coefficients
 from ..systems.frozen import FrozenSystem
 from ..systems.kinds import AnySystem, takes_names
 from ..systems.psi.function import Psi
-from .classification import (
-    NEUTRAL_CLOSED_EQUATOR,
-    Classification,
-    Degeneracy,
-    PortraitName,
-    attracting_cycles,
-    directions,
-    undecided_degeneracy,
-)
 from .cycles.limit_cycles import closed_orbits
 from .layer_problem.closed_equator import EquatorCycle
 from .layer_problem.critical import CriticalSet
@@ -30,6 +21,15 @@ from .layer_problem.equator import EquatorEquilibria, arcs_of
 from .layer_problem.linearisation import NEUTRAL_TRACE, Existence, Location, matrix_determinant
 from .layer_problem.problem import LayerProblem, found_once
 from .omega_limits import radially_neutral_ones
+from .portrait_name import (
+    NEUTRAL_CLOSED_EQUATOR,
+    Classification,
+    Degeneracy,
+    PortraitName,
+    attracting_cycles,
+    directions,
+    undecided_degeneracy,
+)
 
 TYPED_ROUNDING = ROUNDINGS * UNIT
 TERMS = "the terms of U"

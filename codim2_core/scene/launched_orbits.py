@@ -227,7 +227,7 @@ def launched_orbits(
             found[i] = _on_hemisphere(end, problem.critical, backward)
         for i in np.flatnonzero(~inside).tolist():
             arrived = line.status[i] not in CUT or line.ends[i, 2] < LOST
-            found[i] = _outside(problem, half, i, _time(at, line, i) if arrived else None, backward)
+            found[i] = _outside(problem, half, i, _arrival_time(at, line, i) if arrived else None, backward)
         fates.append(tuple(fate for fate in found if fate is not None))
     return LaunchedOrbits(Orbits(back, ahead), *fates)
 
@@ -330,7 +330,7 @@ def _a(kind: str) -> str:
     return f"{'an' if kind[0] in 'aeiou' else 'a'} {kind}"
 
 
-def _time(at: FrozenSystem, lines: Trajectories, i: int) -> float:
+def _arrival_time(at: FrozenSystem, lines: Trajectories, i: int) -> float:
     """Return t = ∫ rho dT along a drawn line outside, to its arrival.
 
     Between drawn points rho changes almost exponentially in T, for which the integral is

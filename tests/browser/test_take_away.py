@@ -37,7 +37,7 @@ def test_every_file_is_of_what_is_on_the_screen(open_page):
     page.layer("rho").uncheck()
     page.settle()
     opened(page)
-    assert sum("takeaway.js" in url for url in page.requests) == 1
+    assert sum("export_menu.js" in url for url in page.requests) == 1
     query = page.find(".address").input_value().partition("?")[2]
     view = view_of(query)
     assert view.seen == (-0.5, 0.75, -1.0, 0.25)

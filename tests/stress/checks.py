@@ -13,9 +13,9 @@ import numpy as np
 
 from codim2_core import ELinear, Psi, Scene, classify, critical_sets, equator_cycle, equator_equilibria
 from codim2_core import trajectories as integrate
-from codim2_core.portrait.classification import NEARER
 from codim2_core.portrait.layer_problem.linearisation import Existence, locate
 from codim2_core.portrait.orbits.trajectories import Trajectories
+from codim2_core.portrait.portrait_name import NEARER
 from codim2_core.portrait.theorems.facts import Verdict
 from codim2_core.scene import layers
 from tests.core.exact_trigonometric import count_equilibria, root_error, theta_coefficients

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from codim2_core import ELinear, classify, psi
-from codim2_core.portrait.classification import NEARER
 from codim2_core.portrait.layer_problem.linearisation import Existence, locate
+from codim2_core.portrait.portrait_name import NEARER
 from codim2_core.results.words import power
 
 SIGNS = [*itertools.product((-1.0, 1.0), repeat=5), (1.0, 0.0, -1.0, 0.0, 1.0), (0.0,) * 5]

@@ -1,6 +1,6 @@
 """A live file: one HTML that moves a slider or two with no server, its frames computed beforehand.
 
-The frames are those of the wire (`draw.packing`), drawn by the page's own painter (static/live.js).
+The frames are those of the wire (`draw.packing`), drawn by the page's own painter (static/live_file.js).
 """
 
 from __future__ import annotations
@@ -172,7 +172,7 @@ def _page(
         "measures": MEASURES,
     }  # fmt: skip
     data = json.dumps(settings, separators=(",", ":")).replace("<", "\\u003c")
-    script = bundle(SCRIPTS / "live.js").replace("</script", "<\\/script")
+    script = bundle(SCRIPTS / "live_file.js").replace("</script", "<\\/script")
     setting = "; ".join(filter(None, (system_words(view), psi_words(view), place_words(view))))
     at_first = f'<p class="note">At first: {escape(setting)}. Made by codim2 {__version__}.</p>'
     return html_page(
@@ -190,7 +190,7 @@ def html_page(title: str, body: str) -> str:
     return (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1"><meta name="color-scheme" '
-        f'content="light dark">\n<style>{(SCRIPTS / "live.css").read_text(encoding="utf-8")}</style></head>\n'
+        f'content="light dark">\n<style>{(SCRIPTS / "live_file.css").read_text(encoding="utf-8")}</style></head>\n'
         f"<body><h1>{escape(title)}</h1>{body}</body></html>\n"
     )
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from codim2_core.motion.limit.predicted_delays import delays
-from codim2_core.portrait.classification import attracting_set
+from codim2_core.portrait.portrait_name import attracting_set
 from codim2_core.portrait.sliding.along_z import slow_plane, slow_portrait
 from codim2_core.portrait.sliding.slow_portrait_result import SlowPortrait
 from codim2_core.results.words import written_label

@@ -18,7 +18,7 @@ YEAR = 365 * 86400  # seconds
 
 
 #: The explorer's own, by name.
-SCRIPTS = {"explorer.js": script, "takeaway.js": export_script, "presenter.js": presenter_script}
+SCRIPTS = {"explorer.js": script, "export_menu.js": export_script, "presenter.js": presenter_script}
 
 
 @cache

@@ -80,7 +80,7 @@ def script() -> str:
 @cache
 def export_script() -> str:
     """Return the menu "Export", which is loaded when it is first opened."""
-    return bundle(SCRIPT_FOLDER / "takeaway.js")
+    return bundle(SCRIPT_FOLDER / "export_menu.js")
 
 
 @cache

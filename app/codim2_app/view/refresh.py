@@ -13,7 +13,7 @@ from typing import Any
 
 from param.parameterized import batch_call_watchers
 
-from codim2_core.portrait.classification import Classification, PortraitName
+from codim2_core.portrait.portrait_name import Classification, PortraitName
 from codim2_core.results.words import printed_sentence
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear

@@ -22,7 +22,7 @@ SAMPLES = 8  # places within a step, between which extremes are looked for
 NEWTON_ROUNDS = 3  # of the place of an extreme within a step: its error is the square each time
 
 
-def swing(run: Simulation) -> Array:
+def amplitude_of(run: Simulation) -> Array:
     """Return half of the difference of the extremes of x, y, z1, ..., zm over a motion, (2 + m,)."""
     motion = run.motion
     u = np.arange(1, SAMPLES + 1) / SAMPLES
@@ -209,7 +209,7 @@ def response_row(piece: Piece, v: Array, onward: float) -> ResponseRow | None:
     kinds = [phase.kind for phase in shot.run.phases]
     if len(kinds) > 1 and kinds[0] == kinds[-1]:  # one phase, in which it starts
         kinds.pop()
-    return ResponseRow(value, period, shot.state, swing(shot.run), values, tuple(kinds), onward)
+    return ResponseRow(value, period, shot.state, amplitude_of(shot.run), values, tuple(kinds), onward)
 
 
 def at_value(piece: Piece, start: Array, value: float) -> Array | None:

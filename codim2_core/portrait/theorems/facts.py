@@ -17,13 +17,13 @@ from ...results.tables import table_number
 from ...systems.coefficients import Coefficients
 from ...systems.frozen import FrozenSystem
 from ...systems.psi.function import Psi
-from ..classification import PortraitName
 from ..classify import portrait_name
 from ..layer_problem.closed_equator import EquatorCycle
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorEquilibria
 from ..layer_problem.linearisation import Existence, Location
 from ..layer_problem.problem import LayerProblem
+from ..portrait_name import PortraitName
 
 RELATIVE_TOLERANCE = 1e-9  # of the size of what is compared
 RAY_ANGLES = np.linspace(0.0, 2.0 * math.pi, 48, endpoint=False)

@@ -13,7 +13,7 @@ HERE = Path(__file__).parent
 STATIC = Path(__file__).parents[3] / "app" / "codim2_app" / "static"
 #: No part of the page's script: a notebook's cell brings it before there is an explorer, a live file has its own, and a
 #: menu is loaded when it is opened; a page without a server has a worker, and one that keeps its files.
-APART = ("cell.js", "figures.js", "live.js", "offline.js", "presenter.js", "takeaway.js", "worker.js")
+APART = ("cell.js", "figures.js", "live_file.js", "offline.js", "presenter.js", "export_menu.js", "worker.js")
 LONGEST = 180.0  # seconds for all of Node's tests, which take five: also where other work has most of the machine
 
 

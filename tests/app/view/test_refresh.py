@@ -15,7 +15,7 @@ from codim2_app.view.refresh import Frames
 from codim2_app.view.warmup import is_ready
 
 import codim2_core as c2
-from codim2_core.portrait.classification import NEARER
+from codim2_core.portrait.portrait_name import NEARER
 from tests.app.near import gaps
 
 from .asking import ask

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.portrait.classification import attracting_set
+from codim2_core.portrait.portrait_name import attracting_set
 
 
 def never():

@@ -8,9 +8,9 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from codim2_core.portrait.classification import NEARER, Classification, PortraitName
 from codim2_core.portrait.cycles.limit_cycles import provable
 from codim2_core.portrait.layer_problem.equator import EquatorEquilibria, equator_equilibria
+from codim2_core.portrait.portrait_name import NEARER, Classification, PortraitName
 from codim2_core.portrait.separatrix_branches import Separatrices
 from codim2_core.results.words import written_label
 from codim2_core.scene import Scene

@@ -81,7 +81,7 @@ def all_files(pyodide: Path, kernels: Path) -> Iterator[tuple[str, bytes]]:
     """Yield the name and the content of each file."""
     files = {
         "explorer.js": script().encode(),
-        "takeaway.js": export_script().encode(),
+        "export_menu.js": export_script().encode(),
         "figures.js": bundle(SCRIPT_FOLDER / "figures.js").encode(),
         "bokeh.min.js": (Path(bokeh_settings.bokehjs_path()) / "js" / "bokeh.min.js").read_bytes(),
         "manifest.webmanifest": json.dumps(MANIFEST).encode(),

@@ -4,7 +4,7 @@
 import {setMarkup, say} from "../dom.js"
 import {SAYS} from "../words.js"
 import {GRIP, frictionOf, momentOf, puckMarkup, slowMotion, unitOf} from "../widgets/puck.js"
-import {isFriction, pushOf} from "./headline.js"
+import {isFriction, pushOf} from "./push_sentence.js"
 
 const LARGEST = 1.5 // the slider's end, of what can be held
 const FINE = 0.01 // in which the push is dragged
@@ -21,7 +21,7 @@ const CREEPS = 0.02 // a slip that is smaller is none
 
 export class Bench {
   /**
-   * @param {any} root the explorer @param {any} values of the controls @param {import("./headline.js").Headline} headline
+   * @param {any} root the explorer @param {any} values of the controls @param {import("./push_sentence.js").Headline} headline
    * @param {{rested: () => Promise<void>, take: (wish: any) => Promise<any>, move: (wanted: Record<string, number>) => void, trace: (paths: any, place?: number[]) => void, equator: () => any}} does
    *   `rested` is kept once the server has what is shown; `equator` is the newest frame's
    */

@@ -2,7 +2,7 @@
 // drawn at a distance from the middle, rest within it; how far the microscope is open moves both. Any touch ends it.
 
 import {SAYS} from "../words.js"
-import {isFriction} from "./headline.js"
+import {isFriction} from "./push_sentence.js"
 
 const STORE = "codim2-opening"
 const START = [1.26, 1.1] // of the picture: where the motion begins

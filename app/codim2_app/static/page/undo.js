@@ -1,6 +1,6 @@
 // Undo and redo as a person has them: two buttons, Ctrl+Z and Ctrl+Y, in a page of its own also Back and Forward.
 
-import {Browsed, Listed, Steps} from "./steps.js"
+import {Browsed, Listed, Steps} from "./undo_history.js"
 
 /**
  * @param {any} root the explorer

@@ -1,7 +1,7 @@
 // The panel "Lessons": the course as a list, or one lesson: text with live numbers, and questions in four steps.
 
 import {register} from "../widgets/panels.js"
-import {joinProgress, packProgress, progressOf, unpackProgress, withStep} from "../widgets/progress.js"
+import {joinProgress, packProgress, progressOf, unpackProgress, withStep} from "../widgets/lesson_progress.js"
 import {copyText, setMarkup} from "../dom.js"
 import {SAYS, escape, formula, lowerIndices, plain} from "../words.js"
 

@@ -3,7 +3,7 @@
 
 import {Chart} from "../chart/chart.js"
 import {largest} from "../chart/scale.js"
-import {eigenvalues, kindAt, withDouble} from "../widgets/jacobian.js"
+import {eigenvalues, kindAt, withDouble} from "../widgets/eigenvalue_words.js"
 import {register} from "../widgets/panels.js"
 import {SAYS, digits, eigen, escape} from "../words.js"
 

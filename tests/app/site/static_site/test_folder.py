@@ -42,7 +42,7 @@ def test_every_file_that_a_page_asks_for_is_there(files):
     worker = files["worker.js"].decode()
     assert set(re.findall(r'here\("([^"]+[^/"])"\)', worker)) <= files.keys()
     assert f"explorer.js?v={digest()}" in text
-    for name in ("takeaway.js", "worker.js", "offline.js"):
+    for name in ("export_menu.js", "worker.js", "offline.js"):
         assert name in files["explorer.js"].decode()
         assert name in files
     assert "index.html" in files["figures.js"].decode()
@@ -68,7 +68,7 @@ def test_the_sizes_that_are_told_are_those_of_the_files(files):
 
 
 @pytest.mark.parametrize(
-    "name", ["index.html", "worker.js", "offline.js", "manifest.webmanifest", "takeaway.js", "figures.js"]
+    "name", ["index.html", "worker.js", "offline.js", "manifest.webmanifest", "export_menu.js", "figures.js"]
 )
 def test_no_other_host_is_named_and_no_place(files, name):
     text = files[name].decode()

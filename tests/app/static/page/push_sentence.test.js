@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {Headline, pushOf} from "../../../../app/codim2_app/static/page/headline.js"
+import {Headline, pushOf} from "../../../../app/codim2_app/static/page/push_sentence.js"
 import {page} from "../played/page.js"
 
 const VALUES = {a: -2, b: 0.5, d: -1, f1: 0.25, f2: -0.5, z: 0.5, k1: 1, k2: 0}

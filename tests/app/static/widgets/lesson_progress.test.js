@@ -1,6 +1,6 @@
 import assert from "node:assert/strict"
 import {test} from "node:test"
-import {joinProgress, packProgress, progressOf, unpackProgress, withStep} from "../../../../app/codim2_app/static/widgets/progress.js"
+import {joinProgress, packProgress, progressOf, unpackProgress, withStep} from "../../../../app/codim2_app/static/widgets/lesson_progress.js"
 
 test("a step is kept once, and nothing else changes", () => {
   const first = withStep({}, "one", 0, "answer")

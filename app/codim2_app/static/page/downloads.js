@@ -36,7 +36,7 @@ export class Takes {
 
   /** Fill an element with the menu. @param {HTMLElement} box @param {any} tools */
   async open(box, tools) {
-    const {menu} = await import(new URL("takeaway.js", location.href).href)
+    const {menu} = await import(new URL("export_menu.js", location.href).href)
     menu(box, {ask: (wish, progress) => this.ask(wish, progress), stop: () => this.stop(), ...tools})
   }
 }

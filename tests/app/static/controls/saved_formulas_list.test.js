@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {YoursList} from "../../../../app/codim2_app/static/controls/yours_list.js"
+import {YoursList} from "../../../../app/codim2_app/static/controls/saved_formulas_list.js"
 import {SAYS} from "../../../../app/codim2_app/static/words.js"
 import {page} from "../played/page.js"
 

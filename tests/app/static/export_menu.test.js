@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {menu} from "../../../app/codim2_app/static/takeaway.js"
+import {menu} from "../../../app/codim2_app/static/export_menu.js"
 import {page} from "./played/page.js"
 
 const SLIDERS = [{name: "a", symbol: "a", low: -4, high: 4}, {name: "f1", symbol: "f₁ & <f>", low: -3, high: 2}, {name: "own:mu", symbol: "μ", low: 0, high: 1}]

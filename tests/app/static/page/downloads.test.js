@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict"
 import {test} from "node:test"
-import {Takes} from "../../../../app/codim2_app/static/page/taken.js"
+import {Takes} from "../../../../app/codim2_app/static/page/downloads.js"
 import {slidersOf} from "../../../../app/codim2_app/static/controls/controls.js"
 import {page} from "../played/page.js"
 

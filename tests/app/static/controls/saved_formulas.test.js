@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {MOST, formulaOf, renameEntry, addEntry, readYours} from "../../../../app/codim2_app/static/controls/yours.js"
+import {MOST, formulaOf, renameEntry, addEntry, readYours} from "../../../../app/codim2_app/static/controls/saved_formulas.js"
 import {FIRST, OWN, VALUES, click, memory, pull, type, wired} from "../played/wiring.js"
 
 const BOXES = {own: [{name: "U1", label: "ẋ = U₁", text: "-c"}, {name: "U2", label: "ẏ = U₂", text: "-s"}, {name: "W", label: "ż = W", text: "1"}], typed: [{name: "a", label: "a", text: "-2"}, {name: "b", label: "b", text: "0"}]}

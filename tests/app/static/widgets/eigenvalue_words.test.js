@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {eigenvalues, kindAt, withDouble} from "../../../../app/codim2_app/static/widgets/jacobian.js"
+import {eigenvalues, kindAt, withDouble} from "../../../../app/codim2_app/static/widgets/eigenvalue_words.js"
 
 const near = (one, other, most = 1e-12) => one.flat().forEach((v, i) => assert.ok(Math.abs(v - other.flat()[i]) <= most, `${one} is not ${other}`))
 

@@ -22,7 +22,7 @@ async function opened(sliders, frames, {width = 360, ratio = 1, dark = false, se
   document.getElementById("settings").textContent = JSON.stringify({sliders, sizes: frames.map((one) => one.length), seen, layers: ["equator"], table, themes, measures})
   const whole = Buffer.concat(frames.map((one) => Buffer.concat([one, Buffer.alloc(-one.length & 3)])))
   document.getElementById("frames").textContent = gzipSync(whole).toString("base64")
-  await import("../../../app/codim2_app/static/live.js?" + loaded++)
+  await import("../../../app/codim2_app/static/live_file.js?" + loaded++)
   const drawn = () => canvas.recorder.drawn.splice(0)
   return {...there, canvas, system, drawn, sentence: () => document.querySelector(".sentence").textContent, rows: /** @type {any[]} */ ([...document.querySelectorAll(".sliders label")]),
     background: () => document.documentElement.style.cssText,

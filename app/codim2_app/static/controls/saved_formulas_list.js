@@ -2,7 +2,7 @@
 // there is none, in the page.
 
 import {SAYS, escape} from "../words.js"
-import {formulaOf, renameEntry, addEntry, readYours, restoreEntry, without} from "./yours.js"
+import {formulaOf, renameEntry, addEntry, readYours, restoreEntry, without} from "./saved_formulas.js"
 
 const STORE = "codim2-yours"
 

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict"
 import {test} from "node:test"
-import {Browsed, Listed, Steps} from "../../../../app/codim2_app/static/page/steps.js"
+import {Browsed, Listed, Steps} from "../../../../app/codim2_app/static/page/undo_history.js"
 
 // A clock whose time is moved by hand.
 function clock() {
