@@ -13,7 +13,7 @@ CONTRIBUTING = (ROOT / "CONTRIBUTING.md").read_text()
 TEXT = ROOT / "app" / "codim2_app" / "site" / "docs" / "text"
 # changelog, hosting, ... are of the site too, where lessons and gallery are made
 PAGES = (
-    "README.md", ".readme/benchmarks.md", "CONTRIBUTING.md",
+    "README.md", "tests/benchmarks/results/benchmarks.md", "CONTRIBUTING.md",
     *(f"app/codim2_app/site/docs/text/{one.name}" for one in TEXT.glob("*.md")),
 )  # fmt: skip
 

@@ -1,6 +1,6 @@
 """Run the benchmarks: ``python -m tests.benchmarks [--quick] [--keep] [name ...]``.
 
-A full run (without names and ``--quick``) rewrites the tables and pictures of .readme/benchmarks.md, one with
+A full run (without names and ``--quick``) rewrites the tables and pictures of results/benchmarks.md, one with
 ``--keep`` the tables of those it names; every run prints all that it measured. Nothing here is asserted.
 """
 
@@ -18,8 +18,7 @@ from pathlib import Path
 
 from .pictures import Plot, svg
 
-ROOT = Path(__file__).parents[2]
-PICTURES = ROOT / ".readme"
+PICTURES = Path(__file__).parent / "results"
 PAGE = PICTURES / "benchmarks.md"
 START, END = "<!-- benchmarks -->", "<!-- /benchmarks -->"
 # bench_<name>: `measure` with `text` and `plots` where there is something to draw, else `report` alone.

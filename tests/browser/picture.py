@@ -16,7 +16,7 @@ from playwright.sync_api import Browser, sync_playwright
 from ..app.serving import serving
 from .jupyterlab import jupyterlab, write_notebook
 
-FOLDER = Path(__file__).parents[2] / ".readme"
+FOLDER = Path(__file__).parents[2] / "app" / "pictures"
 CELLS = (
     "import codim2_core as c2, codim2_app\nmine = c2.examples.nonunique_sliding()\n"
     "view = codim2_app.explorer(mine, psi='tanh', panel='numbers')\nview",
