@@ -52,8 +52,7 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .systems.presets.preset import Preset
     from .systems.presets.presets import presets
     from .systems.psi.function import Psi
-    from .systems.typed import System
-    from .systems.typed_at_z import Frozen
+    from .systems.typed import Frozen, System
 
 __version__ = "0.1.0"
 
@@ -119,8 +118,7 @@ _HOMES = {
     "systems.presets.preset": "Preset",
     "systems.presets.presets": "presets",
     "systems.psi.function": "Psi",
-    "systems.typed": "System",
-    "systems.typed_at_z": "Frozen",
+    "systems.typed": "Frozen System",
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 

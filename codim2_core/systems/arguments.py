@@ -47,6 +47,34 @@ Check = Callable[[str, Any], Any]
 Setting = Callable[[str], Mapping[str, Any]]
 
 
+def _check_kind(is_kind: Callable[[Any], bool], advice: str) -> Check:
+    """Return the check that a value is of a kind."""
+
+    def check(name: str, value: Any) -> Any:
+        if is_kind(value):
+            return value
+        raise ValueError(f"{name} is {short_repr(value)}; give {advice}.")
+
+    return check
+
+
+at_z = _check_kind(
+    lambda value: isinstance(value, SYSTEM_KINDS) and value.frozen,
+    "a system frozen at one z, such as ELinear(...).at(z)",
+)
+text = _check_kind(lambda value: isinstance(value, str), "text")
+cycles = _check_kind(
+    lambda value: isinstance(value, Iterable) and all(hasattr(one, "multiplier") for one in value),
+    "what limit_cycles returned, or leave it out",
+)
+file = _check_kind(
+    lambda value: isinstance(value, str | Path) and bool(str(value)) and not Path(value).is_dir(), "the path of a file"
+)
+function = _check_kind(callable, "a function")
+executor = _check_kind(lambda value: hasattr(value, "submit"), "an executor of concurrent.futures")
+mechanism = _check_kind(lambda value: hasattr(value, "contact_force"), "a mechanics.Mechanism")
+
+
 def psi(name: str, value: Any) -> Psi:
     """Check a regularisation function, or read its name: "hill:3", "1/(1+s)"."""
     if isinstance(value, Psi):
@@ -73,13 +101,6 @@ def e_linear(name: str, value: Any) -> Any:
     if isinstance(system(name, value), ELinear | Coefficients):
         return value
     raise ValueError(f"{name} is of type {type(value).__name__}; give an e-linear one (ELinear).")
-
-
-def at_z(name: str, value: Any) -> Any:
-    """Check a system at one z."""
-    if isinstance(value, SYSTEM_KINDS) and value.frozen:
-        return value
-    raise ValueError(f"{name} is {short_repr(value)}; give a system frozen at one z, such as ELinear(...).at(z).")
 
 
 def number(name: str, value: Any) -> float:
@@ -156,25 +177,11 @@ def points(name: str, value: Any) -> Any:
     return value
 
 
-def text(name: str, value: Any) -> str:
-    """Check text."""
-    if isinstance(value, str):
-        return value
-    raise ValueError(f"{name} is {short_repr(value)}; give text.")
-
-
 def truth(name: str, value: Any) -> bool:
     """Check a truth value."""
     if isinstance(value, bool | np.bool_):
         return bool(value)
     raise ValueError(f"{name} is {short_repr(value)}; give True or False.")
-
-
-def cycles(name: str, value: Any) -> Any:
-    """Check limit cycles that are known already."""
-    if isinstance(value, Iterable) and all(hasattr(one, "multiplier") for one in value):
-        return value
-    raise ValueError(f"{name} is {short_repr(value)}; give what limit_cycles returned, or leave it out.")
 
 
 def regularisations(name: str, value: Any) -> tuple[Psi, ...]:
@@ -189,34 +196,6 @@ def friction_laws(value: Any, name: str = "laws") -> dict[str, tuple[Psi, float]
     if not isinstance(value, Mapping) or not all(isinstance(one, tuple) and len(one) == 2 for one in value.values()):
         raise ValueError(f"{name} is {short_repr(value)}; give pairs by name, such as {{'sap': (psi.tanh(), 1e-3)}}.")
     return {key: (psi(f"{name}[{key!r}]", law), number("eps", eps)) for key, (law, eps) in value.items()}
-
-
-def file(name: str, value: Any) -> Any:
-    """Check the path of a file."""
-    if isinstance(value, str | Path) and str(value) and not Path(value).is_dir():
-        return value
-    raise ValueError(f"{name} is {short_repr(value)}; give the path of a file.")
-
-
-def function(name: str, value: Any) -> Any:
-    """Check a function."""
-    if callable(value):
-        return value
-    raise ValueError(f"{name} is {short_repr(value)}; give a function.")
-
-
-def executor(name: str, value: Any) -> Any:
-    """Check an executor of `concurrent.futures`."""
-    if hasattr(value, "submit"):
-        return value
-    raise ValueError(f"{name} is {short_repr(value)}; give an executor of concurrent.futures.")
-
-
-def mechanism(name: str, value: Any) -> Any:
-    """Check a mechanism."""
-    if hasattr(value, "contact_force"):
-        return value
-    raise ValueError(f"{name} is {short_repr(value)}; give a mechanics.Mechanism.")
 
 
 def number_or_function(name: str, value: Any) -> Any:
@@ -237,15 +216,8 @@ BY_NAME: Mapping[str, Check] = {
     "samples": text,
     "p": points,
     "x2": points,
-    "events": _as_given,  # `initial_value.events` checks them, one by one
-    "family": _as_given,  # `psi` says itself what it takes
-    "example": _as_given,
-    "draw": _as_given,  # `census` says itself what it takes
-    "box": _as_given,  # `basins` says itself what it takes
-    "compare": _as_given,  # `approach_outcomes`
-    "laws": _as_given,  # `compare_laws`
-    "ranges": _as_given,  # and `atlas`
-    "names": _as_given,  # `mechanics.fit` says itself what it takes
+    # what these are the functions themselves say
+    **dict.fromkeys(("events", "family", "example", "draw", "box", "compare", "laws", "ranges", "names"), _as_given),
 }
 BY_ANNOTATION: Mapping[str, Check] = {
     "float": number, "bool": truth, "str": text, "ArrayLike": numbers,

@@ -7,7 +7,7 @@ from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
-from typing import ClassVar, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -101,26 +101,10 @@ class Coefficients(Listed, ByValue):
     moves_with_z: ClassVar[bool] = False
     coefficients: ClassVar[tuple[str, ...]] = ("a", "b", "d", "f1", "f2")
     variable: ClassVar[tuple[str, ...]] = coefficients
-
-    @property
-    def typed(self) -> None:
-        """None: numbers alone."""
-        return None
-
-    @property
-    def is_affine(self) -> bool:
-        """True: U = A e + f."""
-        return True
-
-    @property
-    def reads_position(self) -> bool:
-        """False: on Sigma, x = y = 0."""
-        return False
-
-    @property
-    def z(self) -> tuple[float, ...]:
-        """(): numbers do not know where they come from."""
-        return ()
+    typed: ClassVar[Any] = None
+    is_affine: ClassVar[bool] = True
+    reads_position: ClassVar[bool] = False
+    z: ClassVar[tuple[float, ...]] = ()  # numbers do not know where they come from
 
     @property
     def m(self) -> int:

@@ -10,8 +10,7 @@ from .coefficients import Coefficients
 from .elinear import ELinear
 from .frozen import FrozenSystem
 from .psi.function import Psi
-from .typed import System
-from .typed_at_z import Frozen
+from .typed import Frozen, System
 
 AnySystem = ELinear | System | FrozenSystem
 SYSTEM_KINDS = (ELinear, System, Coefficients, Frozen)  # for `isinstance`, at the door

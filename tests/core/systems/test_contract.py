@@ -10,7 +10,7 @@ import pytest
 import codim2_core as c2
 from codim2_core import examples, hemisphere, psi
 from codim2_core.portrait.orbits.trajectories import trajectories
-from codim2_core.systems.typed_at_z import Frozen
+from codim2_core.systems.typed import Frozen
 
 from ..exact_elliptic import NAMES, exact
 from ..exact_psi import regularisation

@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 import codim2_core as c2
 from codim2_core.formulas.expression import ExpressionError, parse
 from codim2_core.systems.reading import LONGEST_KEY
-from codim2_core.systems.typed import System
-from codim2_core.systems.typed_at_z import MOST_NAMES, MOST_NUMBERS
+from codim2_core.systems.typed import MOST_NAMES, MOST_NUMBERS, System
 from tests.work import calls
 
 CUBIC = ("-c*(c - chi(z)/2)*(c + chi(z)/2)", "-s/2")
