@@ -26,7 +26,7 @@ RULES = {
     "/p/docs": "ToDocs",
     "/p/docs/(.*)": "Docs",
     "/p/lecture": "LecturePage",
-    r"/p/(explorer\.js|takeaway\.js|presenter\.js)": "Script",
+    r"/p/(explorer\.js|export_menu\.js|presenter\.js)": "Script",
     "/p/(preview.jpg)": "StaticFileHandler",
     r"/p/static/(js/bokeh\.min\.js)": "BokehScript",
     "/p/engine/x/(.*)": "EngineFile",
