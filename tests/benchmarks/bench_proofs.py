@@ -23,7 +23,8 @@ import codim2_core as c2
 from codim2_core.portrait.cycles.limit_cycles import closed_orbits, proof_of
 from codim2_core.portrait.cycles.proof.prove import prove_layer_problem
 from codim2_core.portrait.layer_problem.problem import LayerProblem
-from codim2_core.results.words import recognise
+
+from ..words.recognition import recognise
 
 FAMILIES = [c2.psi.constant(), c2.psi.rational(), c2.psi.exponential(), c2.psi.tanh()]
 FAMILIES += [c2.psi.hill(n) for n in (2, 3, 4, 2.5)]
