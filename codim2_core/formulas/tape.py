@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -108,6 +108,18 @@ class Builder:
         """Return the constant at entry i, or None."""
         node = self.nodes[i]
         return node[1] if node[0] == "num" else None
+
+    def enter_tape(self, tape: Tape, meanings: Mapping[str, int]) -> int:
+        """Entry of a formula, other entries put in for names."""
+        at: list[int] = []
+        for op, *args in tape:
+            if op == "num":
+                at.append(self.number(args[0]))
+            elif op == "name":
+                at.append(meanings[args[0]] if args[0] in meanings else self.name(args[0]))
+            else:
+                at.append(self.apply(op, *(at[i] for i in args)))
+        return at[-1]
 
     def apply(self, op: str, *args: int) -> int:
         """Entry of ``op`` on earlier entries, folded if all of them are constants."""
@@ -279,13 +291,4 @@ def _binary_rate(
 def substitute(tape: Tape, name: str, replacement: Tape) -> Tape:
     """Replace `name` by another formula."""
     build = Builder(replacement, simplify=True)
-    inner = len(replacement) - 1
-    at: list[int] = []
-    for op, *args in tape:
-        if op == "num":
-            at.append(build.number(args[0]))
-        elif op == "name":
-            at.append(inner if args[0] == name else build.name(args[0]))
-        else:
-            at.append(build.apply(op, *(at[j] for j in args)))
-    return compact(build.nodes, at[-1])
+    return compact(build.nodes, build.enter_tape(tape, {name: len(replacement) - 1}))

@@ -1,11 +1,7 @@
 """Bounds of formulas and two derivatives over a whole box, by interval arithmetic along their tape; compiled.
 
-It holds for every point of the box, rounding included; what is undefined somewhere in it has the bounds -inf, inf.
-
-Interval arithmetic, compiled: bounds of sums, products, powers and functions over intervals, rounding included.
-
-Each bound is moved outwards by more than the operation and the library function behind it may be off. What is undefined
-somewhere in an interval has the bounds -inf, inf.
+Each bound is moved outwards by more than the operation and the library function behind it may be off: it holds for
+every point of the box, rounding included. What is undefined somewhere in it has the bounds -inf, inf.
 """
 
 from __future__ import annotations
@@ -195,24 +191,13 @@ def range_of(k, a, b):
         return _cosine(a, b)
     if k == TAN:
         return _tangent(a, b)
-    if k == EXP:
-        lo, hi = outwards(math.exp(a), math.exp(b))
-        return max(lo, 0.0), hi
-    if k == LOG:
-        return outwards(math.log(a), math.log(b)) if a > 0.0 else (-math.inf, math.inf)
-    if k == SQRT:
-        if a < 0.0:
-            return -math.inf, math.inf
-        lo, hi = outwards(math.sqrt(a), math.sqrt(b))
-        return max(lo, 0.0), hi
-    if k == TANH:
-        return outwards(math.tanh(a), math.tanh(b))
-    if k == SINH:
-        return outwards(math.sinh(a), math.sinh(b))
     if k == COSH:
         return _hyperbolic_cosine(a, b)
-    if k == ATAN:
-        return outwards(math.atan(a), math.atan(b))
+    if k in (EXP, LOG, SQRT, TANH, SINH, ATAN):  # they rise
+        if (k == LOG and not a > 0.0) or (k == SQRT and a < 0.0):
+            return -math.inf, math.inf
+        lo, hi = outwards(kernels.value(k, a), kernels.value(k, b))
+        return (max(lo, 0.0), hi) if k in (EXP, SQRT) else (lo, hi)
     if k == SIGN_CODE:
         if a == b == 0.0:
             return 0.0, 0.0

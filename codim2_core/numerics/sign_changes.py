@@ -49,8 +49,6 @@ def root_through(x: Sequence[float] | Array, y: Sequence[float] | Array) -> floa
     )
 
 
-__all__ = ["Roots", "lowest", "refine_roots", "roots", "sign_changes"]
-
 Function = Callable[[Array], Array]
 
 _UNIT = np.linspace(0.0, 1.0, 17)

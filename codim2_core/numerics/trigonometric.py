@@ -12,11 +12,6 @@ bound does not decide, or a zero is ill-conditioned, `trigonometric_exact` start
 What "multiple" means for typed numbers: a zero is reported as double, triple or fourfold if coefficients exist
 that have it and differ from every given one by at most `INPUT_ROUNDING` (1.4 half-units in the last place); the
 highest such multiplicity wins. `exact_count` is the number of distinct zeros of the doubles as given.
-
-Near-zeros of a trigonometric polynomial of degree 2: a pair of lines meets the unit circle.
-
-With (X, Y) = (cos theta, sin theta) the polynomial is a conic. Some member of its pencil with the unit circle is a pair
-of real lines; they meet the circle where the polynomial vanishes.
 """
 
 from __future__ import annotations

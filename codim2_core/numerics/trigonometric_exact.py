@@ -79,7 +79,7 @@ def solve_exactly(inputs: Sequence[float], patterns: Sequence[Sequence[int]]) ->
     bits = max(192, 32 + 3 * max(abs(v) for v in total).bit_length())
     chain = [quartic]
     while len(chain[-1]) > 2:
-        chain.append([k * a for k, a in enumerate(chain[-1])][1:])
+        chain.append(_derivative(chain[-1]))
     levels = _real_zeros_of_chain(chain, bits)
     found, distance = _degenerate_zeros(chain, levels, doubtful, bits)
     count = len(levels[0]) if _discriminant(total) else _count_degenerate(quartic, levels, bits)
@@ -213,32 +213,41 @@ def _backward_distance(vector: Sequence[float], generators: Sequence[Sequence[fl
     return worst
 
 
+def _derivative(polynomial: Sequence[int]) -> list[int]:
+    return [k * a for k, a in enumerate(polynomial)][1:]
+
+
 def _distance(
-    chain: Sequence[Sequence[int]], doubtful: Sequence[Sequence[int]], p: int, orders: int, bits: int
+    chain: Sequence[Sequence[int]], doubtful: Sequence[Sequence[int]], places: Sequence[tuple[int, int]], bits: int
 ) -> float:
-    """Relative change of every doubtful input that makes t and its first derivatives vanish at p."""
+    """Relative change of every doubtful input that makes derivatives of t vanish: of these orders, at these places."""
     vector: list[float] = []
     rows: list[list[float]] = []
-    parts = [list(g) for g in doubtful]
-    for k in range(orders):
+    for order, p in places:
+        parts = doubtful
+        for _ in range(order):
+            parts = [_derivative(g) for g in parts]
         values = [_scaled_value(g, p, bits) for g in parts]
         scale = sum(abs(v) for v in values)
-        residual = _scaled_value(chain[k], p, bits)
+        residual = _scaled_value(chain[order], p, bits)
         vector.append(residual / scale if scale else float(residual != 0) * 1e9)
         rows.append([v / scale if scale else 0.0 for v in values])
-        parts = [[j * a for j, a in enumerate(g)][1:] for g in parts]
     return _backward_distance(vector, list(zip(*rows, strict=True)))
+
+
+def _multiple_distance(
+    chain: Sequence[Sequence[int]], doubtful: Sequence[Sequence[int]], p: int, orders: int, bits: int
+) -> float:
+    return _distance(chain, doubtful, [(order, p) for order in range(orders)], bits)
 
 
 def _double_distance(chain: Sequence[Sequence[int]], doubtful: Sequence[Sequence[int]], p: int, bits: int) -> float:
     """Do the same for a double zero near the critical point p, which may move unless nearly degenerate."""
-    slopes = [[j * a for j, a in enumerate(g)][1:] for g in doubtful]
     bend = _scaled_value(chain[2], p, bits)
     # push * |t'''| against t''^2 (push: how much t' can change), both at the scale 2**(4 bits).
-    push = sum(abs(_scaled_value(g, p, bits)) for g in slopes) * abs(_scaled_value(chain[3], p, bits))
-    if 100 * push < bend * bend * _PER_ROUNDING:
-        return _distance(chain, doubtful, p, 1, bits)
-    return _distance(chain, doubtful, p, 2, bits)
+    push = sum(abs(_scaled_value(_derivative(g), p, bits)) for g in doubtful) * abs(_scaled_value(chain[3], p, bits))
+    orders = 1 if 100 * push < bend * bend * _PER_ROUNDING else 2
+    return _multiple_distance(chain, doubtful, p, orders, bits)
 
 
 def _degenerate_zeros(
@@ -249,10 +258,10 @@ def _degenerate_zeros(
 ) -> tuple[list[tuple[int, int]], float]:
     """Zeros with multiplicities of the most degenerate polynomial within the rounding of the inputs."""
     critical, zeros = levels[1], levels[0]
-    fourfold = _distance(chain, doubtful, levels[3][0], 3, bits)
+    fourfold = _multiple_distance(chain, doubtful, levels[3][0], 3, bits)
     if fourfold <= INPUT_ROUNDING:
         return [(levels[3][0], 4)], 0.0
-    triple, p = min(((_distance(chain, doubtful, p, 2, bits), p) for p in levels[2]), default=(math.inf, 0))
+    triple, p = min(((_multiple_distance(chain, doubtful, p, 2, bits), p) for p in levels[2]), default=(math.inf, 0))
     if triple <= INPUT_ROUNDING:
         others = [q for q in zeros if _scaled_value(chain[1], q, bits)]
         # One simple zero remains: the one farthest from the cluster.
@@ -273,7 +282,9 @@ def _degenerate_zeros(
     if not pairs:
         return [(q, 1) for q in zeros], min([triple, fourfold, *scores])
     chosen = {min(pairs, key=lambda i: scores[i])}
-    if {0, 2} <= set(pairs) and _both_double(chain, doubtful, critical, bits):
+    if {0, 2} <= set(pairs) and (
+        _distance(chain, doubtful, [(0, critical[0]), (0, critical[2])], bits) <= INPUT_ROUNDING
+    ):
         chosen = {0, 2}
     merged = set().union(*(pairs[i] for i in chosen))
     found = [(critical[i], 2) for i in chosen]
@@ -283,19 +294,6 @@ def _degenerate_zeros(
         if gap not in merged and all(q != critical[i] for i in chosen)
     ]
     return sorted(found), 0.0
-
-
-def _both_double(
-    chain: Sequence[Sequence[int]], doubtful: Sequence[Sequence[int]], critical: Sequence[int], bits: int
-) -> bool:
-    rows = []
-    vector = []
-    for p in (critical[0], critical[2]):
-        values = [_scaled_value(g, p, bits) for g in doubtful]
-        scale = sum(abs(v) for v in values) or 1
-        rows.append([v / scale for v in values])
-        vector.append(_scaled_value(chain[0], p, bits) / scale)
-    return _backward_distance(vector, list(zip(*rows, strict=True))) <= INPUT_ROUNDING
 
 
 def _exact_direction(

@@ -39,15 +39,7 @@ from ..systems.psi.function import Psi
 
 
 class SceneSetting(Protocol):
-    """The checked parameters of a `Scene`, of which each layer reads some.
-
-    Attributes
-    ----------
-    coefficients : FrozenSystem
-        The system frozen at z.
-    problem : LayerProblem
-        Its layer problem under Psi; what one layer finds in it is kept for the others.
-    """
+    """The checked parameters of a `Scene`, of which each layer reads some, and its layer problem."""
 
     system: AnySystem
     psi: Psi
@@ -199,23 +191,11 @@ def launched_orbits(
     """Follow orbits through seeds (k, 2) of the picture, and say where they go and where they come from."""
     if not len(seeds):
         return NO_ORBITS
-    at, psi = problem.at, problem.psi
+    at = problem.at
     time = drawn_time(at, problem.equator)
     back, ahead = (
-        trajectories(
-            at,
-            psi,
-            seeds,
-            t_max=time,
-            rtol=RTOL,
-            atol=0.1 * RTOL,
-            backward=backward,
-            view=view,
-            pixel=pixel,
-            capture=CAPTURE,
-            length=MAX_WINDING_LENGTH,
-        )
-        for backward in (True, False)
+        _integrate(problem, seeds, t_max=time, backward=back, view=view, pixel=pixel, length=MAX_WINDING_LENGTH)
+        for back in (True, False)
     )
     inside = np.hypot(seeds[:, 0], seeds[:, 1]) < 1.0
     fates = []
@@ -232,6 +212,10 @@ def launched_orbits(
     return LaunchedOrbits(Orbits(back, ahead), *fates)
 
 
+def _integrate(problem: LayerProblem, seeds: Array, **options: Any) -> Trajectories:
+    return trajectories(problem.at, problem.psi, seeds, rtol=RTOL, atol=0.1 * RTOL, capture=CAPTURE, **options)
+
+
 def _orbits_to_end(
     problem: LayerProblem, line: Trajectories, seeds: Array, time: float, view: float, backward: bool
 ) -> Trajectories:
@@ -239,18 +223,7 @@ def _orbits_to_end(
     cut = [i for i, status in enumerate(line.status) if status in CUT]
     if not cut:
         return line
-    on = trajectories(
-        problem.at,
-        problem.psi,
-        seeds[cut],
-        t_max=time,
-        rtol=RTOL,
-        atol=0.1 * RTOL,
-        backward=backward,
-        view=view,
-        capture=CAPTURE,
-        samples="ends",
-    )
+    on = _integrate(problem, seeds[cut], t_max=time, backward=backward, view=view, samples="ends")
     ends, codes = line.ends.copy(), line.codes.copy()
     ends[cut], codes[cut] = on.ends, on.codes
     return Trajectories(line.buffer, line.clock, line.offsets, ends, codes)

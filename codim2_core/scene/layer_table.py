@@ -13,11 +13,11 @@ from ..portrait.cycles.limit_cycles import closed_orbits, cycles_of
 from ..portrait.layer_problem.eigendirections import find_eigendirections
 from ..portrait.layer_problem.problem import find_critical, find_equator, find_equator_cycle, find_location
 from ..portrait.nullcline.conics import Conics, conics_of
-from ..portrait.nullcline.nullclines import NullclineBranch, Seen, inside_nullclines, outside_nullclines
-from ..portrait.separatrices import Separatrices, separatrices_of
+from ..portrait.nullcline.nullclines import Seen, inside_nullclines, outside_nullclines
+from ..portrait.separatrices import separatrices_of
 from ..portrait.sliding.filippov import flow_on
 from ..portrait.theorems.certificates import Certificate, certificates_of
-from .launched_orbits import LaunchedOrbits, SceneSetting, continuations, launched_orbits, orbits, seeds_of
+from .launched_orbits import SceneSetting, continuations, launched_orbits, orbits, seeds_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,25 +61,9 @@ def seen_closely(setting: SceneSetting) -> Seen | None:
     return Seen(setting.window, pixel) if pixel < 2.0 * setting.view / ACROSS else None
 
 
-def _launched_layer(setting: SceneSetting) -> LaunchedOrbits:
-    return launched_orbits(setting.problem, setting.launch, view=setting.view, pixel=setting.pixel)
-
-
-def _separatrices(setting: SceneSetting) -> Separatrices:
-    return separatrices_of(setting.problem, rtol=setting.rtol, pixel=setting.pixel)
-
-
 def _certificates(setting: SceneSetting) -> tuple[Certificate, ...]:
     system = None if setting.system.frozen else setting.system
     return certificates_of(setting.problem, cycles_of(setting.problem), system, setting.z)
-
-
-def _inside_nullclines(setting: SceneSetting) -> tuple[NullclineBranch, ...]:
-    return inside_nullclines(setting.problem, seen_closely(setting))
-
-
-def _outside_nullclines(setting: SceneSetting) -> tuple[NullclineBranch, ...]:
-    return outside_nullclines(setting.problem, setting.view, seen_closely(setting))
 
 
 def _conics(setting: SceneSetting) -> Conics:
@@ -97,16 +81,26 @@ layers: Mapping[str, Recipe] = MappingProxyType(
         "name": Recipe(("plane", "slow", "psi"), lambda s: portrait_name.compute(s.problem)),
         "classification": Recipe(("plane", "slow", "psi"), lambda s: portrait.compute(s.problem)),
         "eigendirections": Recipe(("plane", "psi"), lambda s: find_eigendirections(s.problem)),
-        "nullclines_inside": Recipe(("plane", "psi", "closely"), _inside_nullclines),
-        "nullclines_outside": Recipe(("plane", "view", "closely"), _outside_nullclines),
+        "nullclines_inside": Recipe(
+            ("plane", "psi", "closely"), lambda s: inside_nullclines(s.problem, seen_closely(s))
+        ),
+        "nullclines_outside": Recipe(
+            ("plane", "view", "closely"), lambda s: outside_nullclines(s.problem, s.view, seen_closely(s))
+        ),
         "conics": Recipe(("plane", "view", "closely"), _conics),
         "inside": Recipe(("plane", "psi", "inner seeds", *_STEPPED), lambda s: orbits(s, outside=False)),
         "outside": Recipe(("plane", "outer seeds", "view", *_STEPPED), lambda s: orbits(s, outside=True)),
         "continuations": Recipe(("plane", "psi", *_STEPPED), continuations),
         "closed_orbits": Recipe(("plane", "psi"), lambda s: closed_orbits.compute(s.problem)),
         "cycles": Recipe(("plane", "slow", "psi"), lambda s: cycles_of.compute(s.problem)),
-        "launched": Recipe(("plane", "psi", "launch", "view", "pixel"), _launched_layer),
-        "separatrices": Recipe(("plane", "psi", "tolerance", "pixel"), _separatrices),
+        "launched": Recipe(
+            ("plane", "psi", "launch", "view", "pixel"),
+            lambda s: launched_orbits(s.problem, s.launch, view=s.view, pixel=s.pixel),
+        ),
+        "separatrices": Recipe(
+            ("plane", "psi", "tolerance", "pixel"),
+            lambda s: separatrices_of(s.problem, rtol=s.rtol, pixel=s.pixel),
+        ),
         "outcomes": Recipe(("plane", "slow", "psi"), lambda s: outcomes_of.compute(s.problem)),
         "certificates": Recipe(("plane", "slow", "psi", "place"), _certificates),
     }

@@ -16,7 +16,7 @@ from ..formulas.arrays import Terms
 from ..formulas.expression import Expression, parse
 from ..results.arrays import join_columns
 from ..results.result import ByValue, Listed
-from .rows import affine_rows
+from .equations import affine_rows
 
 Value = TypeVar("Value")
 

@@ -23,9 +23,8 @@ from ..formulas.expression import Expression, parse
 from ..formulas.names import MOST_SLOW_VARIABLES
 from ..results.result import Listed
 from .coefficients import Affine, Coefficients, Parameters
-from .equations import Equations, Exchange, equations_latex, equations_text, linear_rows, negative, with_left_sides
+from .equations import Equations, Exchange, affine_rows, constant, linear_rows, negative, with_left_sides, with_numbers
 from .reading import MAX_NUMBER, MIN_NUMBER, at_place, slow_names, slow_values
-from .rows import elinear_rows
 
 
 def in_normal_form(
@@ -100,19 +99,18 @@ def _parameter_value(value: object, name: str) -> float:
     return _require_finite(_real_number(value, f"parameter {name}"), f"parameter {name}")
 
 
-def _grid(values: Any, what: str, shape_text: str, columns: int | None) -> tuple[tuple[Any, ...], ...]:
-    """Nested sequences as tuples, checked to be (m, columns), or (m,) seen as (m, 1)."""
-    if isinstance(values, (str, float, int, Expression)):
-        values = [values]
+_ONE = (str, float, int, Expression)  # what is one coefficient, and no row of them
+
+
+def _pairs(values: Any, what: str, shape: str) -> list[tuple[Any, Any]]:
+    """Nested sequences, checked to be (m, 2)."""
     rows = []
-    for row in values:
-        if columns is None:
-            rows.append((row,))
-        elif isinstance(row, str) or not hasattr(row, "__len__") or len(row) != columns:
-            raise ValueError(f"{what} has a row {row!r}; give {what} of shape {shape_text}.")
-        else:
-            rows.append(tuple(row))
-    return tuple(rows)
+    given: Any = [values] if isinstance(values, _ONE) else values
+    for row in given:
+        if isinstance(row, str) or not hasattr(row, "__len__") or len(row) != 2:
+            raise ValueError(f"{what} has a row {row!r}; give {what} of shape {shape}.")
+        rows.append(tuple(row))
+    return rows
 
 
 @dataclass(frozen=True)
@@ -162,41 +160,27 @@ class ELinear(Listed, Exchange):
         parameters = {name: _parameter_value(value, name) for name, value in dict(self.parameters).items()}
         names = (*SLOW_NAMES, *parameters)
         entry = lambda value, what: _coefficient(value, what, names)
+
+        def matrix(values: Any, what: str, shape: str) -> Any:
+            return None if values is None else tuple(
+                tuple(entry(value, f"{what}[{i},{j}]") for j, value in enumerate(row, 1))
+                for i, row in enumerate(_pairs(values, what, shape), 1)
+            )  # fmt: skip
+
         if isinstance(self.f, str) or not hasattr(self.f, "__len__") or len(self.f) != 2:
             raise ValueError(f"f is {self.f!r}; give two coefficients (f1, f2).")
-        f = tuple(entry(value, f"f{i + 1}") for i, value in enumerate(self.f))
-        B = (
-            None
-            if self.B is None
-            else tuple(
-                tuple(entry(v, f"B[{i + 1},{j + 1}]") for j, v in enumerate(row))
-                for i, row in enumerate(_grid(self.B, "B", "(m, 2)", 2))
-            )
-        )
-        g = (
-            None
-            if self.g is None
-            else tuple(entry(row[0], f"g{i + 1}") for i, row in enumerate(_grid(self.g, "g", "(m,)", None)))
-        )
+        f = tuple(entry(value, f"f{i}") for i, value in enumerate(self.f, 1))
+        B, given = matrix(self.B, "B", "(m, 2)"), (self.g,) if isinstance(self.g, _ONE) else self.g
+        g = None if given is None else tuple(entry(value, f"g{i}") for i, value in enumerate(given, 1))
         if B is not None and g is not None and len(B) != len(g):
             raise ValueError(f"B has {len(B)} row(s) and g has {len(g)}; both need m, one for each slow variable.")
-        fix = object.__setattr__
-        for name in "abd":
-            fix(self, name, entry(getattr(self, name), name))
-        fix(self, "f", f)
-        fix(self, "B", B)
-        fix(self, "g", g)
-        fix(self, "parameters", Parameters(parameters))
-        if self.given_matrix is not None:
-            fix(self, "given_matrix", tuple(
-                tuple(entry(v, f"A[{i + 1},{j + 1}]") for j, v in enumerate(row))
-                for i, row in enumerate(_grid(self.given_matrix, "A", "(2, 2)", 2))
-            ))  # fmt: skip
-            (a11, a12), (a21, a22) = self.given_matrix
-            if all(isinstance(v, float) for v in (a11, a12, a21, a22)):
-                a, b, d, _, _ = in_normal_form(a11, a12, a21, a22)
-                for name, value in (("a", a), ("b", b), ("d", d)):
-                    fix(self, name, value)
+        made = {name: entry(getattr(self, name), name) for name in "abd"}
+        A = matrix(self.given_matrix, "A", "(2, 2)")
+        if A is not None and all(isinstance(value, float) for row in A for value in row):
+            made["a"], made["b"], made["d"], *_ = in_normal_form(*A[0], *A[1])
+        made |= {"f": f, "B": B, "g": g, "parameters": Parameters(parameters), "given_matrix": A}
+        for name, value in made.items():
+            object.__setattr__(self, name, value)
 
     @classmethod
     def from_matrix(
@@ -246,18 +230,12 @@ class ELinear(Listed, Exchange):
         rows = [(*row, constant) for row, constant in zip((*matrix, *B), (*self.f, *g), strict=True)]
         return with_left_sides(linear_rows(rows, tuple(self.parameters), self.m))
 
-    def _repr_latex_(self) -> str:
-        return equations_latex(self)
-
     def __repr__(self) -> str:
         defaults = {"f": (0.0, 0.0), "B": None, "g": None, "parameters": {}, "given_matrix": None}
         shown = {one.name: getattr(self, one.name) for one in fields(self)}
         told = {name: value for name, value in shown.items() if name not in defaults or value != defaults[name]}
         given = (f"{name}={_coefficient_text(value)}" for name, value in told.items())
         return f"ELinear({', '.join(given)})"
-
-    def __str__(self) -> str:
-        return equations_text(self.equations, self.parameters)
 
     @cached_property
     def _slow_names(self) -> frozenset[str]:
@@ -347,13 +325,41 @@ class ELinear(Listed, Exchange):
         numbers = [name for name in Coefficients.variable if isinstance(held.get(name), float)]
         return (*numbers, *self.parameters)
 
-    def varied(self, name: str, value: float) -> ELinear:
-        """Return the same system with one of `variable` changed."""
-        return self.evolve(**{name: value})
-
     def rows(self, kept: Sequence[str] = ()) -> list[Expression]:
         """U and W as formulas, in which some of `variable` keep their names; ValueError if the axes turn with these."""
-        return elinear_rows(self, kept)
+        values = [pair for pair in self.parameters.items() if pair[0] not in kept]
+
+        def as_expression(value: Any, name: str = "") -> Expression:
+            if name in kept:
+                return parse(name, (name,))
+            expression = value if isinstance(value, Expression) else constant(value)
+            expression = with_numbers([expression], values)[0]
+            return expression.substitute("z", parse("z1", SLOW_NAMES)) if "z" in expression.names else expression
+
+        f = [as_expression(value, name) for name, value in zip(("f1", "f2"), self.f, strict=True)]
+        B = [[as_expression(value) for value in row] for row in self.B or [(0.0, 0.0)] * self.m]
+        g = [as_expression(value) for value in self.g or [0.0] * self.m]
+        abd: list[Any] = [
+            as_expression(value, name) for name, value in zip("abd", (self.a, self.b, self.d), strict=True)
+        ]
+        axes = (1.0, 0.0)
+        if self.given_matrix is not None:
+            entries = [[as_expression(value).constant for value in row] for row in self.given_matrix]
+            if any(entry is None for row in entries for entry in row):
+                if any(
+                    name in kept for row in self.given_matrix for value in row for name in as_expression(value).names
+                ):
+                    raise ValueError(
+                        "A is made of the parameters named, and its rotation into the normal form turns with them: "
+                        "give the system as System(U=..., W=...) in fixed axes."
+                    )
+                raise ValueError(
+                    "A depends on z, and its rotation into the normal form would turn the axes of (x, y) with it: "
+                    "nothing to simulate in. Give the system as System(U=..., W=...) in fixed axes."
+                )
+            still = self.from_matrix(np.array(entries, float)).at()
+            abd, axes = [still.a, still.b, still.d], (math.cos(still.rotation), math.sin(still.rotation))
+        return affine_rows(abd, f, B, g, axes)
 
     def value_of(self, name: str) -> float:
         """Present value of one of `variable`."""

@@ -1,11 +1,11 @@
-"""The equations of a system as formulas, and as text."""
+"""The equations of a system as formulas, with numbers put in, and as text."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from importlib import import_module
-from typing import Any, cast
+from typing import Any, Self, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -79,11 +79,67 @@ def _without_brackets(text: str) -> str:
     return re.sub(r"\+ \((-[\d.e+-]+)\)", r"+ \1", re.sub(r"^\((-[\d.e+-]+)\)", r"\1", text)).replace("+ -", "- ")
 
 
+def constant(value: float) -> Expression:
+    """Return a number as a formula."""
+    return parse(repr(float(value)), ())
+
+
+def with_numbers(rows: Sequence[Expression], numbers: Iterable[tuple[str, float]]) -> list[Expression]:
+    """Return formulas with numbers in the place of names."""
+    values = [(name, constant(value)) for name, value in numbers]
+    found = []
+    for row in rows:
+        for name, value in values:
+            row = row.substitute(name, value) if name in row.names else row
+        found.append(row)
+    return found
+
+
+def affine_rows(
+    abd: Sequence[Any], f: Sequence[Any], B: Sequence[Any], g: Sequence[Any], axes: tuple[float, float] = (1.0, 0.0)
+) -> list[Expression]:
+    """Rows of ``A e + R f`` and ``B R^T e + g``, R the rotation by the angle whose cosine and sine are `axes`."""
+    a, b, d = abd
+    k, n = axes
+    rows = [
+        fill_template("a*c - b*s + (k*u - n*v)", a=a, b=b, k=k, n=n, u=f[0], v=f[1]),
+        fill_template("b*c + d*s + (n*u + k*v)", b=b, d=d, k=k, n=n, u=f[0], v=f[1]),
+    ]
+    rows += [
+        fill_template("(k*u - n*v)*c + (n*u + k*v)*s + w", k=k, n=n, u=row[0], v=row[1], w=last)
+        for row, last in zip(B, g, strict=True)
+    ]
+    return rows
+
+
+def fill_template(template: str, **values: Any) -> Expression:
+    """Return a formula with formulas or numbers in the places of single letters."""
+    # Capitals: the values' own names c, s, z1 … must not be taken for placeholders.
+    for name in values:
+        template = template.replace(name, name.upper())
+    row = parse(template, (*FAST_NAMES, *(name.upper() for name in values)))
+    for name, value in values.items():
+        row = row.substitute(name.upper(), value if isinstance(value, Expression) else constant(value))
+    return row
+
+
 Regularisation = Callable[[Any], Any]
 
 
 class Exchange:
-    """A system as other programs take it."""
+    """A system as it is shown, and as other programs take it."""
+
+    def _repr_latex_(self) -> str:
+        return equations_latex(self)
+
+    def __str__(self) -> str:
+        own: Any = self
+        return equations_text(own.equations, own.parameters)
+
+    def varied(self, name: str, value: float) -> Self:
+        """Return the same system with one of `variable` changed."""
+        own: Any = self
+        return own.evolve(**{name: value})
 
     def rhs(self, psi: Regularisation | None = None, eps: float = 0.0) -> Callable[[float, ArrayLike], Array]:
         """Return ``f(t, state)``, the right-hand side of (2.7) with e_Psi (2.19), for `scipy.integrate.solve_ivp`.

@@ -128,13 +128,7 @@ def definitions(given: Mapping[str, Any], parameters: tuple[str, ...]) -> tuple[
         if match is None:
             raise ValueError(f"{short_repr(key)} cannot name a definition; write a name such as 'chi' or 'chi(z)'.")
         name, arguments = match[1], match[2] or ""
-        if (
-            name in FAST_NAMES
-            or name in SLOW_NAMES
-            or name == "z"
-            or name in parameters
-            or name in [d[0] for d in found]
-        ):
+        if name in {*FAST_NAMES, *SLOW_NAMES, "z", *parameters, *(one[0] for one in found)}:
             raise ValueError(f"the definition {short_repr(name)} has the name of something else; choose another name.")
         inside = r"\s*,\s*".join(re.escape(word.strip()) for word in arguments.split(","))
         call = re.compile(rf"(?<!\w){name}\s*\(\s*{inside or r'z'}\s*\)", re.ASCII)

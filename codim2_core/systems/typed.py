@@ -22,7 +22,7 @@ from ..results.arrays import Array
 from ..results.result import Listed
 from .coefficients import INTERNAL_OF_FROZEN, Affine, Coefficients, Parameters, affine_terms
 from .elinear import ELinear
-from .equations import Equations, Exchange, equations_latex, equations_text, with_left_sides
+from .equations import Equations, Exchange, constant, with_left_sides, with_numbers
 from .reading import (
     MAX_NUMBER,
     MIN_NUMBER,
@@ -37,7 +37,6 @@ from .reading import (
     texts,
 )
 from .reading import definitions as read_definitions
-from .rows import constant, with_numbers
 
 MOST_NUMBERS = 32  # parameters and slow variables that one system may read
 MOST_NAMES = 64  # parameters and definitions of one system
@@ -240,17 +239,11 @@ class System(Listed, Exchange):
         given = {"parameters": self.parameters, "definitions": dict(self.definitions)}
         return {name: System(U=(name, "0"), **given).without_clock[0][0] for name in given["definitions"]}
 
-    def _repr_latex_(self) -> str:
-        return equations_latex(self)
-
     def __repr__(self) -> str:
         U, W = ([row.text for row in rows] for rows in self.without_clock)
         given = [f"U={tuple(U)}", *([f"W={tuple(W)}"] if W else [])]
         given += [f"parameters={dict(self.parameters)}"] if self.parameters else []
         return f"System({', '.join(given)})"
-
-    def __str__(self) -> str:
-        return equations_text(self.equations, self.parameters)
 
     @property
     def typed(self) -> System:
@@ -261,10 +254,6 @@ class System(Listed, Exchange):
     def variable(self) -> tuple[str, ...]:
         """Names of what `varied` changes: the parameters."""
         return tuple(self.parameters)
-
-    def varied(self, name: str, value: float) -> System:
-        """Return the same system with one of `variable` changed."""
-        return self.evolve(**{name: value})
 
     def value_of(self, name: str) -> float:
         """Present value of one of `variable`."""

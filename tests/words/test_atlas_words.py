@@ -5,9 +5,9 @@ import math
 import numpy as np
 
 import codim2_core as c2
-from codim2_core.results.words import recognise
 
 from .read_back import number
+from .recognition import recognise
 
 TAKENS = c2.System(U=("s", "mu + k*s + c**2 + c*s"), parameters={"mu": 0.0, "k": 0.0})
 CUSPED = c2.System(U=("mu + k*c + c**3", "-s"), parameters={"mu": 0.0, "k": 0.0})

@@ -9,9 +9,9 @@ import codim2_core as c2
 from codim2_core import ELinear, System, bifurcations, psi
 from codim2_core.bifurcations.diagrams.equilibrium_branches import equilibrium_branches
 from codim2_core.bifurcations.diagrams.result import SpecialValue
-from codim2_core.results.words import recognise
 
 from .read_back import number
+from .recognition import recognise
 from .standing import At
 
 ONE, HILL = psi.constant(), psi.hill(3)

@@ -7,7 +7,9 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import ELinear, System, psi
-from codim2_core.results.words import ROOMS, recognise
+from codim2_core.results.words import ROOMS
+
+from .recognition import recognise
 
 ONE = psi.constant()
 

@@ -4,7 +4,8 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import ELinear, System, psi
-from codim2_core.results.words import recognise
+
+from .recognition import recognise
 
 SETTINGS = [
     (ELinear(-1, 1, -1, (1, 0)), ["two have met"]),

@@ -7,7 +7,8 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import ELinear, System, psi
-from codim2_core.results.words import recognise
+
+from .recognition import recognise
 
 ONE = psi.constant()
 NET = (np.arange(6000) + 0.37) * (math.tau / 6000)

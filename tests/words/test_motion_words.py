@@ -6,9 +6,9 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import ELinear, System, examples, psi
-from codim2_core.results.words import recognise
 
 from .motion_checks import CONSTANT, MOTIONS, Told
+from .recognition import recognise
 
 HILL = psi.hill(3)
 CASE_3 = ELinear(172.0, 186.0, -200.0, ("-172*z", "-186*z"), B=((0.5, 0.0),))  # C at e = (z, 0), z' = e_1/2

@@ -7,9 +7,10 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import ELinear, System, psi
-from codim2_core.results.words import ROOMS, recognise, written_label
+from codim2_core.results.words import ROOMS, written_label
 
 from .read_back import number
+from .recognition import recognise
 
 ONE = psi.constant()
 SYSTEMS = {

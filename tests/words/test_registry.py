@@ -2,7 +2,9 @@
 
 import re
 
-from codim2_core.results.words import ROOMS, SENTENCES, recognise, say
+from codim2_core.results.words import ROOMS, SENTENCES, say
+
+from .recognition import recognise
 
 
 def test_every_sentence_is_registered_once():

@@ -7,10 +7,11 @@ from hypothesis import given, settings
 
 import codim2_core as c2
 from codim2_core import ELinear, psi
-from codim2_core.results.words import power, recognise, written_number
+from codim2_core.results.words import power, written_number
 from tests.core.strategies import regularisations, systems
 
 from .portrait_checks import CLASSES, OUTCOMES, Portrait
+from .recognition import recognise
 
 FEW = 3  # random systems: each is followed by dozens of motions
 

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from .elementary import ABS, ATAN, COS, COSH, EXP, FLOOR_FUNCTION, LOG, SIGN_FUNCTION, SIN, SINH, SQRT, TAN, TANH
+from .elementary import ELEMENTARY
 from .elliptic import ELLIPTIC
 from .function import Function
 
 __all__ = ["FIRST_CODE", "FUNCTIONS", "Function", "called", "code", "known"]
 
-FUNCTIONS: tuple[Function, ...] = (
-    SIN, COS, TAN, EXP, LOG, SQRT, TANH, SINH, COSH, ATAN, ABS, SIGN_FUNCTION, FLOOR_FUNCTION, *ELLIPTIC,
-)  # fmt: skip
+FUNCTIONS: tuple[Function, ...] = (*ELEMENTARY, *ELLIPTIC)
 FIRST_CODE = 32  # code of the first; those below are operations
 known = {one.name: one for one in FUNCTIONS}
 called = {one.name: one.scalar for one in FUNCTIONS if not one.source}  # what source calls by its name

@@ -181,38 +181,14 @@ def _call_at(address: int, state: Array, out: Array, parameters: Array) -> None:
         function.python(state, out, parameters)
 
 
-def _carray(pointer: Array, shape: tuple[int, ...]) -> Array:
-    return pointer[: shape[0]]
-
-
-def _advance_pointer(pointer: Array, places: int) -> Array:
-    return pointer[places:]
-
-
-def _pointer_to(address: int) -> Array:
-    return np.ctypeslib.as_array((ctypes.c_double * MOST_AT_ADDRESS).from_address(int(address)))
-
-
-def _scratch() -> Array:
-    return np.empty(SCRATCH_SIZE)
-
-
-def _double_of_bits(bits: int) -> float:
-    return struct.unpack("<d", struct.pack("<q", bits))[0]
-
-
-def _bits_of_double(value: float) -> int:
-    return struct.unpack("<q", struct.pack("<d", value))[0]
-
-
 #: Operations of kernels that are none of Python (`intrinsics`), by name.
 STAND_INS: dict[str, Callable[..., Any]] = {
     "call_field": _call_field,
     "call_at": _call_at,
-    "carray": _carray,
-    "ahead": _advance_pointer,
-    "pointer_to": _pointer_to,
-    "scratch": _scratch,
-    "double_of_bits": _double_of_bits,
-    "bits_of_double": _bits_of_double,
+    "carray": lambda pointer, shape: pointer[: shape[0]],
+    "ahead": lambda pointer, places: pointer[places:],
+    "pointer_to": lambda at: np.ctypeslib.as_array((ctypes.c_double * MOST_AT_ADDRESS).from_address(int(at))),
+    "scratch": lambda: np.empty(SCRATCH_SIZE),
+    "double_of_bits": lambda bits: struct.unpack("<d", struct.pack("<q", bits))[0],
+    "bits_of_double": lambda value: struct.unpack("<q", struct.pack("<d", value))[0],
 }

@@ -174,13 +174,9 @@ def compile_with_gain(lanes: Callable[..., None], own: Any, whole: bool, cache: 
 
 
 def _find_address(*key: str) -> Address:
-    return Address(_address_of(*key))
-
-
-def _address_of(*key: str) -> int:
     if key not in table().addresses:
         raise NotImplementedError(f"{' of '.join(key)} was not compiled; run `codim2 kernels`.")
-    return table().addresses[key]
+    return Address(table().addresses[key])
 
 
 def _elsewhere(*_: Any) -> Any:

@@ -21,8 +21,8 @@ from ...formulas.names import FAST_NAMES, SLOW_NAMES
 from ...formulas.switches import Branch, branch_at, has_switches
 from ...formulas.tape import BESIDE_ZERO, BESIDE_ZERO_SOURCE, FUNCTIONS_OF_TWO, Builder, Node
 from ...results.arrays import Array
+from ...systems.equations import constant, fill_template
 from ...systems.kinds import AnySystem
-from ...systems.rows import constant, fill_template
 from ...systems.typed import System
 
 

@@ -1,7 +1,6 @@
-"""Sentences about systems, portraits and motions: each written once, a module a topic, with its condition.
+"""Sentences about systems, portraits and motions: each written once, with its condition; the rooms say them by `say`.
 
-The other rooms say them by `say`; `recognise` finds them again in a text, so that the tests can hold each against
-what motions do: a sentence without a check of its own is a failing test.
+A sentence without a check of its own in `tests/words`, against what motions do, is a failing test.
 """
 
 from __future__ import annotations
@@ -117,29 +116,3 @@ def say(key: str, **fields: object) -> str:
             for text, name, format_ in _parse_fields(key)
         ]
     )
-
-
-@cache
-def _patterns() -> dict[str, re.Pattern[str]]:
-    return {key: _pattern(sentence.says) for key, sentence in SENTENCES.items()}
-
-
-def _pattern(template: str) -> re.Pattern[str]:
-    parts, fields = list[str](), set[str]()
-    for text, name, _, _ in Formatter().parse(template):
-        parts += [re.escape(text), "" if not name else f"(?P={name})" if name in fields else f"(?P<{name}>.+?)"]
-        fields |= {name} if name else set()
-    return re.compile("".join(parts) + r"(?= |$)")
-
-
-def recognise(text: str) -> list[tuple[str, dict[str, str]]]:
-    """Return the key and the fields of each sentence of a text, in its order."""
-    found, rest = [], text.strip()
-    while rest:
-        matches = [(m, key) for key, pattern in _patterns().items() if (m := pattern.match(rest))]
-        if not matches:
-            raise ValueError(f"{rest!r} begins with no sentence that is listed.")
-        match, key = max(matches, key=lambda pair: len(SENTENCES[pair[1]].says))
-        found.append((key, match.groupdict()))
-        rest = rest[match.end() :].strip()
-    return found

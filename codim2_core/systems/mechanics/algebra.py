@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partialmethod
 
 from ...formulas.expression import Expression
 from ...formulas.tape import Builder, compact
@@ -11,60 +12,28 @@ MatrixRow = tuple[int, ...]
 Matrix = tuple[MatrixRow, ...]
 
 
-class Algebra:
+class Algebra(Builder):
     """Formulas as entries of one tape: equal ones are one entry, so they may be many times in one another."""
 
     def __init__(self) -> None:
-        self._build = Builder(simplify=True)
+        super().__init__(simplify=True)
         self.zero = self.number(0.0)
 
-    def number(self, value: float) -> int:
-        """Return the entry of a number."""
-        return self._build.number(value)
-
-    def name(self, word: str) -> int:
-        """Return the entry of a name."""
-        return self._build.name(word)
+    # Of entries u and v: u + v, u - v, u v and u/v; of u: its square root, and -u.
+    plus = partialmethod(Builder.apply, "+")
+    minus = partialmethod(Builder.apply, "-")
+    times = partialmethod(Builder.apply, "*")
+    divide = partialmethod(Builder.apply, "/")
+    square_root = partialmethod(Builder.apply, "sqrt")
+    negative = partialmethod(Builder.apply, "neg")
 
     def enter(self, row: Expression, meanings: Mapping[str, int]) -> int:
         """Return the entry of a formula, other entries put in for names."""
-        at: list[int] = []
-        for op, *args in row.tape:
-            if op == "num":
-                at.append(self._build.number(args[0]))
-            elif op == "name":
-                at.append(meanings[args[0]] if args[0] in meanings else self._build.name(args[0]))
-            else:
-                at.append(self._build.apply(op, *(at[i] for i in args)))
-        return at[-1]
+        return self.enter_tape(row.tape, meanings)
 
     def formula(self, entry: int) -> Expression:
         """Return the formula of an entry."""
-        return Expression(compact(self._build.nodes, entry))
-
-    def plus(self, u: int, v: int) -> int:
-        """Return u + v."""
-        return self._build.apply("+", u, v)
-
-    def minus(self, u: int, v: int) -> int:
-        """Return u - v."""
-        return self._build.apply("-", u, v)
-
-    def times(self, u: int, v: int) -> int:
-        """Return u v."""
-        return self._build.apply("*", u, v)
-
-    def divide(self, u: int, v: int) -> int:
-        """Return u/v."""
-        return self._build.apply("/", u, v)
-
-    def square_root(self, u: int) -> int:
-        """Return the square root of u."""
-        return self._build.apply("sqrt", u)
-
-    def negative(self, u: int) -> int:
-        """Return -u."""
-        return self._build.apply("neg", u)
+        return Expression(compact(self.nodes, entry))
 
     def dot(self, u: Sequence[int], v: Sequence[int]) -> int:
         """Return the sum of products of two rows of one length."""
@@ -78,7 +47,7 @@ class Algebra:
         n = len(M)
         A, B = [list(row) for row in M], [list(column) for column in columns]
         for k in range(n):
-            pivot = self._build.value(A[k][k])
+            pivot = self.value(A[k][k])
             if pivot is not None and not pivot > 0.0:
                 raise ValueError("M is not positive definite; give the mass matrix of the kinetic energy, v·Mv/2.")
             for i in range(k + 1, n):

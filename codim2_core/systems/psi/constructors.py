@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...formulas.expression import parse
-from .families import FAMILIES, Family, family_of_name
-from .families.custom import FAMILY as TYPED
+from .families import FAMILIES, TYPED, Family, family_of_name
 from .families.record import Each
 from .function import Psi
 from .typed import custom_kernel

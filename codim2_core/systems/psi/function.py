@@ -26,10 +26,8 @@ from ...results.result import Listed
 from ...results.tables import paragraphs
 from .condition import PsiCheck
 from .conditions import check
-from .families import constant
 from .families.record import SCALAR, VECTOR, Family, Kernel
-
-__all__ = ["Psi"]
+from .families.without_parameter import CONSTANT, Constant
 
 Vector = NDArray[Any] | Sequence[float]
 
@@ -63,8 +61,8 @@ class Psi(Listed):
     parameter: float
     text: str
     expression: Expression | None = field(default=None, compare=False, repr=False)
-    kernel: Kernel = field(default_factory=constant.Constant, compare=False, repr=False)
-    record: Family = field(default=constant.FAMILY, compare=False, repr=False)
+    kernel: Kernel = field(default_factory=Constant, compare=False, repr=False)
+    record: Family = field(default=CONSTANT, compare=False, repr=False)
 
     def _repr_svg_(self) -> str | None:
         return drawing.svg(self)
@@ -146,23 +144,8 @@ class Psi(Listed):
         """
         return _apply(self._modulus, zeta, "zeta", MAX_FLOAT, "0 <= zeta < inf")
 
-    @overload
-    def complement(self, zeta: float) -> float: ...
-    @overload
-    def complement(self, zeta: Vector) -> Array: ...
     def complement(self, zeta: Any) -> Any:
-        """``1 - |e_Psi|^2 = Psi/(zeta^2 + Psi)`` to full relative accuracy, however near |e_Psi| is to 1.
-
-        Parameters
-        ----------
-        zeta : float or array
-            ``0 <= zeta < inf``.
-
-        Raises
-        ------
-        ValueError
-            zeta is negative, infinite or NaN.
-        """
+        """``1 - |e_Psi|^2 = Psi/(zeta^2 + Psi)`` to full relative accuracy, however near |e_Psi| is to 1."""
         return _apply(self._complement, zeta, "zeta", MAX_FLOAT, "0 <= zeta < inf")
 
     @overload
@@ -209,51 +192,15 @@ class Psi(Listed):
             )
         return _apply(self._radius, modulus, _MODULUS, 1.0, "0 <= |e_Psi| <= 1", complement)
 
-    @overload
-    def jacobian_factors(self, zeta: float) -> tuple[float, float]: ...
-    @overload
-    def jacobian_factors(self, zeta: Vector) -> tuple[Array, Array]: ...
     def jacobian_factors(self, zeta: Any) -> Any:
-        """Eigenvalues of ``D e_Psi(x2, y2; 1)``, Remark 3.2: along (x2, y2) and across it.
+        """Eigenvalues of ``D e_Psi(x2, y2; 1)``, Remark 3.2, along (x2, y2) and across it, at its distance zeta from 0.
 
         ``radial = (Psi - zeta^2 Psi')/(zeta^2 + Psi)^(3/2)`` and ``tangential = 1/sqrt(zeta^2 + Psi)``.
-
-        Parameters
-        ----------
-        zeta : float or array
-            ``|(x2, y2)|``, ``0 <= zeta < inf``.
-
-        Returns
-        -------
-        radial, tangential : float or ndarray
-            As zeta; finite, and positive until they underflow.
-
-        Raises
-        ------
-        ValueError
-            zeta is negative, infinite or NaN.
         """
         return _apply(self._jacobian_factors, zeta, "zeta", MAX_FLOAT, "0 <= zeta < inf")
 
-    @overload
-    def steepness(self, zeta: float) -> float: ...
-    @overload
-    def steepness(self, zeta: Vector) -> Array: ...
     def steepness(self, zeta: Any) -> Any:
-        """``-s Psi'(s)/Psi(s)`` at ``s = zeta^2``: by how many powers of s Psi falls there.
-
-        In `jacobian_factors`, ``radial = tangential (1 - |e_Psi|^2) (1 + steepness)``.
-
-        Parameters
-        ----------
-        zeta : float or array
-            ``0 <= zeta < inf``.
-
-        Raises
-        ------
-        ValueError
-            zeta is negative, infinite or NaN.
-        """
+        """``-s Psi'(s)/Psi(s)`` at ``s = zeta^2``: ``radial = tangential (1 - |e_Psi|^2) (1 + steepness)`` above."""
         return _apply(self.kernel.kappa, zeta, "zeta", MAX_FLOAT, "0 <= zeta < inf")
 
     def check(self) -> PsiCheck:

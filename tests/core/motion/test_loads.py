@@ -20,7 +20,8 @@ from codim2_core import (
     simulate_nonsmooth,
 )
 from codim2_core.motion.result import SimulationStatus
-from codim2_core.results.words import recognise
+
+from ...words.recognition import recognise
 
 PSI = psi.constant()
 

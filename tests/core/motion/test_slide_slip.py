@@ -7,7 +7,8 @@ import pytest
 from scipy.integrate import quad
 
 import codim2_core as c2
-from codim2_core.results.words import recognise
+
+from ...words.recognition import recognise
 
 CONSTANT = c2.psi.constant()
 NODES = c2.System(U=("-c*(c - 1/2)*(c + 1/2)", "-s"))  # a saddle in the middle, between two nodes

@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 
 import codim2_core as c2
 from codim2_core import psi
-from codim2_core.results.words import recognise
 from codim2_core.systems.mechanics import Mechanism
+
+from ...words.recognition import recognise
 
 V, KINETIC = 0.3, 0.5
 

@@ -8,10 +8,11 @@ import codim2_core as c2
 from codim2_core import classify, psi
 from codim2_core.portrait.layer_problem.disc_zeros import disc_zeros
 from codim2_core.portrait.layer_problem.problem import LayerProblem
-from codim2_core.results.words import recognise
 from codim2_core.systems.typed import System
 from tests.core.general_systems import ATTRACTING, NONUNIQUE, polynomials
 from tests.core.strategies import regularisations
+
+from ...words.recognition import recognise
 
 RATIONAL = psi.rational()
 

@@ -7,7 +7,9 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import psi
-from codim2_core.results.words import count_word, recognise, written_label
+from codim2_core.results.words import count_word, written_label
+
+from ...words.recognition import recognise
 
 FAMILIES = (psi.constant(), psi.rational(), psi.hill(3.0), psi.tanh(), psi.exponential())
 

@@ -136,7 +136,7 @@ def failed_conditions(n: float, text: str) -> tuple[Condition, ...]:
     )  # fmt: skip
 
 
-FAMILY = Family(
+HILL = Family(
     name="hill", title="3/(3 + (4s)ⁿ)", formula="3/(3+(4*s)**n)", kernel=Hill, batched=True,
     gain=gain, gain_whole=gain_whole, derivatives=derivatives, broken=failed_conditions,
     parameter=Parameter("n", 1e-2, 1000.0, shown=(0.5, 6.0), default=2.0, note="the paper uses 1 to 4"),

@@ -1,4 +1,4 @@
-"""The record of a family of Psi. To add one: a file next to this one that holds it, and its line in `LISTED`.
+"""The record of a family of Psi. To add one: its record in a file next to this one, and its name in `LISTED`.
 
 The interface of the arithmetic of a family of Psi, Definition 2.3, for one float or for arrays.
 

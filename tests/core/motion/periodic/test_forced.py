@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from codim2_core import PeriodicStatus, System, periodic_motion, psi, simulate_nonsmooth
 from codim2_core.motion.periodic.shooting import matching_distances
-from codim2_core.results.words import recognise
 
+from ....words.recognition import recognise
 from .closed_forms import CIRCLE, LINE, PLANE, DenHartog, Rotating
 
 

@@ -6,8 +6,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from codim2_core import PeriodicStatus, System, periodic_motion, psi
-from codim2_core.results.words import recognise
 
+from ....words.recognition import recognise
 from .closed_forms import BELT, CIRCLE, StickSlip
 
 RING = System(U=("-y + x*(1 - x**2 - y**2)", "x + y*(1 - x**2 - y**2)"))  # r = 1; next to it (r - 1)' = -2 (r - 1)

@@ -10,8 +10,8 @@ from scipy.optimize import brentq
 from codim2_core import PeriodicStatus, System, periodic_motion, psi, reference, response_curve
 from codim2_core.motion.periodic.result import KINDS_OF_CHANGE, change_point
 from codim2_core.motion.periodic.shooting import matching_distances
-from codim2_core.results.words import recognise
 
+from ....words.recognition import recognise
 from .closed_forms import CIRCLE, LINE, DenHartog, Rotating
 
 #: q'' + q + k q^3 + 0.1 q' = cos(w t) - S q'/|q'|, in a line.

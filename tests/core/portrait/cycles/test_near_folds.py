@@ -3,7 +3,8 @@
 import pytest
 
 import codim2_core as c2
-from codim2_core.results.words import recognise
+
+from ....words.recognition import recognise
 
 A = (-0.4902411495421009, -0.8112187473479301, 0.4224017699157944)
 F2, FOLD = 0.26872945922028, 0.111040034272268  # of f1, to within 1e-11 by bisection; two cycles below it

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from codim2_core import psi
-from codim2_core.results.words import recognise
 from codim2_core.systems.mechanics import contacts
 
+from ....words.recognition import recognise
 from .plates import Blocks
 
 EYE = ((1, 0), (0, 1))

@@ -11,9 +11,9 @@ from scipy.integrate import solve_ivp
 
 import codim2_core as c2
 from codim2_core import psi
-from codim2_core.results.words import recognise
 from codim2_core.systems.mechanics import contact, contacts
 
+from ....words.recognition import recognise
 from .plates import INERTIA, MASS, MU, Driven, foot, plate, shaken_plate
 
 EYE = ((1, 0), (0, 1))

@@ -9,8 +9,9 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import examples
-from codim2_core.results.words import recognise
 from codim2_core.systems.mechanics import contact, fit
+
+from ....words.recognition import recognise
 
 
 def block(mu, **more):

@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 
 import codim2_core as c2
 from codim2_core import ELinear, System, examples, psi
-from codim2_core.results.words import recognise
 from codim2_core.systems.mechanics import Mechanism, contact, contacts
+
+from ....words.recognition import recognise
 
 number = st.floats(-2.0, 2.0).map(lambda v: round(v, 3))
 

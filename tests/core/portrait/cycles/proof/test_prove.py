@@ -13,7 +13,8 @@ from codim2_core import ELinear, System, psi
 from codim2_core.portrait.cycles.proof import prove
 from codim2_core.portrait.cycles.proof.check import check
 from codim2_core.portrait.layer_problem.problem import LayerProblem
-from codim2_core.results.words import recognise
+
+from .....words.recognition import recognise
 
 CASE3 = c2.presets["case3-n3"].system
 PAIR = ELinear(1.86786703, 3.16834868, -2.21184256, (-1.49598633, -1.02365467)), psi.hill(4)
