@@ -32,6 +32,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from ...numerics.assignment import assign
 from ...results.arrays import Array, Complex
 from ...results.words import say
 from ...systems.kinds import AnySystem
@@ -150,10 +151,8 @@ def _eigenvalues(matrix: Array) -> tuple[Complex, Array]:
 
 def matching_distances(values: Complex, others: Complex) -> Array:
     """Distance of each value to its partner among as many others, partners being chosen to be close in all."""
-    from scipy.optimize import linear_sum_assignment  # imported late: it takes longer than a motion
-
     apart = np.abs(values[:, None] - others[None, :])
-    return apart[linear_sum_assignment(apart)]
+    return apart[np.arange(len(values)), assign(apart)]
 
 
 MAX_SEGMENT_GROWTH = (

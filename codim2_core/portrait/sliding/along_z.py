@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...numerics.assignment import assign
 from ...numerics.sign_changes import root_between
 from ...results.arrays import Array
 from ...results.words import say, subscript
@@ -262,11 +263,9 @@ def _location_of(C: CriticalSet) -> tuple[tuple[float, float], tuple[float, ...]
 
 def _match_sets(before: Sequence[CriticalSet], after: Sequence[CriticalSet]) -> list[tuple[CriticalSet, CriticalSet]]:
     """Pair the critical sets at two neighbouring z, each with the one that moved least."""
-    from scipy.optimize import linear_sum_assignment  # imported late: it takes longer than a portrait
-
     distance = [[float(np.hypot(*(p.e - q.e))) for q in after] for p in before]
-    rows, columns = linear_sum_assignment(np.array(distance).reshape(len(before), len(after)))
-    return [(before[i], after[j]) for i, j in zip(rows.tolist(), columns.tolist(), strict=True)]
+    columns = assign(np.array(distance).reshape(len(before), len(after)))
+    return [(p, after[j]) for p, j in zip(before, columns, strict=True)]
 
 
 def _follow(values: list[float], sets: list[tuple[CriticalSet, ...]]) -> list[SlowBranch]:
