@@ -207,7 +207,7 @@ def _first_defect(op, left, right, number, roots, own_rows, path, h, rates, chan
 
 
 @held_kernel
-def first_defect(op, left, right, number, roots, own_rows, paths, lengths, rates, changes, both, told):
+def first_defect(op, left, right, number, roots, own_rows, paths, lengths, rates, changes, both, defect):
     """Find the first of some steps that does not solve its equations all along.
 
     Steps before it: k if there is none. Each row is the rate of one of the variables.
@@ -220,7 +220,7 @@ def first_defect(op, left, right, number, roots, own_rows, paths, lengths, rates
         np.empty((len(roots), 6)), np.empty((len(roots), 3)),
     )  # fmt: skip
     stack = np.empty((MAX_DEFECT_DEPTH + 4, 2))
-    told[:] = 0.0
+    defect[:] = 0.0
     for k in range(len(lengths)):
         code, low, width = _first_defect(
             op,
@@ -238,7 +238,7 @@ def first_defect(op, left, right, number, roots, own_rows, paths, lengths, rates
             stack,
         )
         if code == DEFECT:
-            told[0], told[1], told[2] = low, width, DEFECT
+            defect[0], defect[1], defect[2] = low, width, DEFECT
             return k
-        told[3] += code == UNDECIDED
+        defect[3] += code == UNDECIDED
     return len(lengths)

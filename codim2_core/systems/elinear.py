@@ -233,8 +233,8 @@ class ELinear(Listed, Exchange):
     def __repr__(self) -> str:
         defaults = {"f": (0.0, 0.0), "B": None, "g": None, "parameters": {}, "given_matrix": None}
         shown = {one.name: getattr(self, one.name) for one in fields(self)}
-        told = {name: value for name, value in shown.items() if name not in defaults or value != defaults[name]}
-        given = (f"{name}={_coefficient_text(value)}" for name, value in told.items())
+        set_values = {name: value for name, value in shown.items() if name not in defaults or value != defaults[name]}
+        given = (f"{name}={_coefficient_text(value)}" for name, value in set_values.items())
         return f"ELinear({', '.join(given)})"
 
     @cached_property

@@ -180,9 +180,9 @@ def solve_stages(motion, table, y, h, clock, work):
         for a in range(STAGES):
             for i in range(n):
                 Z[a, i] += residual[a * n + i] * size[i]
-        told = _newton_verdict(change, last, iteration, enough)
-        if told != 0:
-            return told > 0
+        verdict = _newton_verdict(change, last, iteration, enough)
+        if verdict != 0:
+            return verdict > 0
         last = change
     return False
 

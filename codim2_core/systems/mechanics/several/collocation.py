@@ -129,10 +129,10 @@ class Inspection:
         path = self._path(step, len(seen) + 1, len(own))
         path[own, 1:] = step.h * (self._to_integral @ seen[:, moving]).T
         allowed = self._allowed(step, np.abs(seen).max(axis=0), here, sticks, speed)[:, None, moving]
-        told = np.zeros(4)
-        found = first_defect(*self.field.moving_program.arrays, own, path[None], np.array([step.h]), *allowed, told)
-        self.was_undecided = bool(found and told[3])
-        return None if found else step.h * float(told[0] if told[0] > 0.0 else RETRY_SHARE * told[1])
+        defect = np.zeros(4)
+        found = first_defect(*self.field.moving_program.arrays, own, path[None], np.array([step.h]), *allowed, defect)
+        self.was_undecided = bool(found and defect[3])
+        return None if found else step.h * float(defect[0] if defect[0] > 0.0 else RETRY_SHARE * defect[1])
 
     def switch(self, step: Step) -> Switch | None:
         """Return the first switch that a step passes."""
