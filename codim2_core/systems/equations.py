@@ -12,9 +12,10 @@ from numpy.typing import ArrayLike
 
 from ..formulas.expression import Expression, parse
 from ..formulas.latex import latex_formula, latex_symbol
-from ..formulas.names import FAST_NAMES, SLOW_NAMES
+from ..formulas.names import FAST_NAMES, MOST_SLOW_VARIABLES, SLOW_NAMES, TIME
 from ..results.arrays import Array
 
+Rows = tuple[Expression, ...]
 Sides = tuple[tuple[str, str], ...]
 
 
@@ -47,6 +48,20 @@ Equations = tuple[tuple[str, Expression], ...]
 def with_left_sides(rows: Sequence[Expression]) -> Equations:
     """Return right-hand sides with their left sides: "x", "y", "z1", ..."""
     return tuple(zip(("x", "y", *SLOW_NAMES), rows, strict=False))
+
+
+def with_clock(U: Rows, W: Rows) -> tuple[Rows, Rows, str]:
+    """Return U and W with one more slow variable for t, the last, whose rate is 1, and its name."""
+    named = max((SLOW_NAMES.index(name) + 1 for row in (*U, *W) for name in row.names if name in SLOW_NAMES), default=0)
+    others = len(W) or named
+    if others >= MOST_SLOW_VARIABLES:
+        raise ValueError(f"t is one more slow variable; at most {MOST_SLOW_VARIABLES - 1} are allowed next to it.")
+    if named > others:  # to be refused for that
+        return U, W, ""
+    clock = SLOW_NAMES[others]
+    rows = W or (parse("0", ()),) * others
+    U, W = (tuple(row.substitute(TIME, parse(clock, SLOW_NAMES)) for row in part) for part in (U, rows))
+    return U, (*W, parse("1", ())), clock
 
 
 def linear_rows(coefficients: Sequence[Sequence[Any]], parameters: Sequence[str], m: int) -> list[Expression]:

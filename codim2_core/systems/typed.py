@@ -22,7 +22,7 @@ from ..results.arrays import Array
 from ..results.result import Listed
 from .coefficients import INTERNAL_OF_FROZEN, Affine, Coefficients, Parameters, affine_terms
 from .elinear import ELinear
-from .equations import Equations, Exchange, constant, with_left_sides, with_numbers
+from .equations import Equations, Exchange, Rows, constant, with_clock, with_left_sides, with_numbers
 from .reading import (
     MAX_NUMBER,
     MIN_NUMBER,
@@ -42,22 +42,7 @@ MOST_NUMBERS = 32  # parameters and slow variables that one system may read
 MOST_NAMES = 64  # parameters and definitions of one system
 
 
-Rows = tuple[Expression, ...]
 _T = parse(TIME, (TIME,))
-
-
-def with_clock(U: Rows, W: Rows) -> tuple[Rows, Rows, str]:
-    """Return U and W with one more slow variable for t, the last, whose rate is 1, and its name."""
-    named = max((SLOW_NAMES.index(name) + 1 for row in (*U, *W) for name in row.names if name in SLOW_NAMES), default=0)
-    others = len(W) or named
-    if others >= MOST_SLOW_VARIABLES:
-        raise ValueError(f"t is one more slow variable; at most {MOST_SLOW_VARIABLES - 1} are allowed next to it.")
-    if named > others:  # to be refused for that
-        return U, W, ""
-    clock = SLOW_NAMES[others]
-    rows = W or (parse("0", ()),) * others
-    U, W = (tuple(row.substitute(TIME, parse(clock, SLOW_NAMES)) for row in part) for part in (U, rows))
-    return U, (*W, parse("1", ())), clock
 
 
 @dataclass(frozen=True, repr=False)
